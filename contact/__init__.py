@@ -1,0 +1,23 @@
+"""Contact: friction laws, gap conductance, heat partition, contact with road and rubber."""
+
+from contact.conductance import GapConductance
+from contact.friction import (
+    CoulombFriction,
+    ExponentialFriction,
+    FrictionLaw,
+    HuemerFriction,
+    ThermalFriction,
+    shifted,
+)
+from contact.partition import HeatPartition
+
+__all__ = [
+    "CoulombFriction",
+    "ExponentialFriction",
+    "FrictionLaw",
+    "GapConductance",
+    "HeatPartition",
+    "HuemerFriction",
+    "ThermalFriction",
+    "shifted",
+]

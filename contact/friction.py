@@ -1,0 +1,245 @@
+"""Friction coefficients as functions of contact pressure, sliding speed and temperature.
+
+References
+----------
+.. [1] Hofstetter, K. et al., "Efficient treatment of rubber friction problems in industrial
+   applications", eqs. (5)-(8), Table 2.
+.. [2] Huemer, T. et al., Rubber friction on concrete and ice surfaces observed under different
+   temperatures and surface conditions (2001).
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from materials.checks import require_finite, require_not_negative, require_positive
+from materials.wlf import WLF
+
+Array = NDArray[np.float64]
+
+
+class FrictionCoefficient(NamedTuple):
+    """Friction coefficient [-] with its derivatives [mm^2/N] and [s/mm]."""
+
+    mu: Array
+    dmu_dp: Array
+    dmu_dv: Array
+
+
+class ThermalFrictionCoefficient(NamedTuple):
+    """Friction coefficient [-] with its derivatives [mm^2/N], [s/mm] and [1/K]."""
+
+    mu: Array
+    dmu_dp: Array
+    dmu_dv: Array
+    dmu_dT: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrictionLaw(ABC):
+    """Base of the laws mu(p, v).
+
+    Parameters
+    ----------
+    p_min : float
+        Floor of the pressure [N/mm^2]: below it the coefficient keeps its value at the floor.
+    v_min : float
+        Floor of the speed [mm/s]; the coefficient there is the limit of stick.
+
+    Notes
+    -----
+    Both laws of the paper diverge weakly for p -> 0 and vanish for v -> 0, neither of which is
+    meant; hence the floors. The derivative with respect to a floored quantity is zero.
+    """
+
+    p_min: float = 1e-3
+    v_min: float = 1.0
+
+    def __post_init__(self) -> None:
+        require_positive(p_min=self.p_min, v_min=self.v_min)
+
+    @abstractmethod
+    def _law(self, p: Array, v: Array) -> FrictionCoefficient:
+        """Law and derivatives at pressures and speeds that are at or above the floors."""
+
+    def coefficient(self, p: ArrayLike, v: ArrayLike) -> Array:
+        """Friction coefficient [-] at pressure p [N/mm^2] and velocity v [mm/s] (broadcast)."""
+        return self.evaluate(p, v).mu
+
+    def evaluate(self, p: ArrayLike, v: ArrayLike) -> FrictionCoefficient:
+        """Friction coefficient with its derivatives.
+
+        Parameters
+        ----------
+        p : array_like
+            Contact pressure [N/mm^2].
+        v : array_like
+            Sliding velocity [mm/s]; its sign does not matter to mu.
+        """
+        p, v = np.broadcast_arrays(np.asarray(p, dtype=float), np.asarray(v, dtype=float))
+        speed = np.abs(v)
+        law = self._law(np.maximum(p, self.p_min), np.maximum(speed, self.v_min))
+        return FrictionCoefficient(
+            mu=law.mu,
+            dmu_dp=np.where(p > self.p_min, law.dmu_dp, 0.0),
+            dmu_dv=np.where(speed > self.v_min, law.dmu_dv * np.sign(v), 0.0),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoulombFriction(FrictionLaw):
+    """Constant coefficient, ``mu = constant``.
+
+    Parameters
+    ----------
+    mu : float
+        Friction coefficient [-].
+    """
+
+    mu: float
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_not_negative(mu=self.mu)
+
+    def _law(self, p: Array, v: Array) -> FrictionCoefficient:
+        return FrictionCoefficient(np.full(p.shape, self.mu), np.zeros(p.shape), np.zeros(p.shape))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExponentialFriction(FrictionLaw):
+    """Power law ``mu = A p^B v^C``, eq. (5).
+
+    Parameters
+    ----------
+    A, B, C : float
+        Constants for p in N/mm^2 and v in mm/s, with the paper's values for a winter tread
+        compound on asphalt as defaults (Table 2).
+    """
+
+    A: float = 0.7064
+    B: float = -0.0645
+    C: float = 0.0425
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_positive(A=self.A)
+        require_finite(B=self.B, C=self.C)
+
+    def _law(self, p: Array, v: Array) -> FrictionCoefficient:
+        mu = self.A * p**self.B * v**self.C
+        return FrictionCoefficient(mu, self.B * mu / p, self.C * mu / v)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HuemerFriction(FrictionLaw):
+    """Law of Huemer et al. [2]_, eq. (6), with a peak over the sliding speed.
+
+    ``mu = (alpha p^(n-1) + beta)/(a + b v^(-1/m) + c v^(-2/m))``
+
+    Parameters
+    ----------
+    alpha, beta, n, a, b, c : float
+        Constants for p in N/mm^2 and v in mm/s (Table 2 as defaults).
+    inverse_m : float
+        The exponent 1/m [-].
+
+    Notes
+    -----
+    Multiplying alpha, beta, a, b, c by one number changes nothing. For b < 0 < c the peak is at
+    ``v = (-2 c/b)^m`` (26.5 mm/s for Table 2).
+    """
+
+    alpha: float = 0.1399
+    beta: float = 0.4091
+    n: float = 0.8680
+    a: float = 0.9203
+    b: float = -1.1188
+    c: float = 0.9677
+    inverse_m: float = 0.1672
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_finite(alpha=self.alpha, beta=self.beta, n=self.n, a=self.a, b=self.b, c=self.c)
+        require_positive(inverse_m=self.inverse_m)
+        if self._smallest_denominator() <= 0.0:
+            raise ValueError(
+                f"a = {self.a:g}, b = {self.b:g}, c = {self.c:g} make the denominator of Huemer's "
+                "law vanish at some speed; expected a + b s + c s^2 > 0 for s = v^(-1/m)"
+            )
+
+    @property
+    def peak_velocity(self) -> float:
+        """Speed of the largest friction coefficient [mm/s]; NaN when there is none."""
+        if self.b < 0.0 < self.c:
+            return float((-2.0 * self.c / self.b) ** (1.0 / self.inverse_m))
+        return float("nan")
+
+    def _smallest_denominator(self) -> float:
+        last = self.v_min**-self.inverse_m
+        at = [0.0, last]
+        if self.c > 0.0 and 0.0 < -self.b / (2.0 * self.c) < last:
+            at.append(-self.b / (2.0 * self.c))
+        # s = 0 is reached only for infinite speed, so a = 0 is refused as well
+        return min(self.a + self.b * s + self.c * s * s for s in at)
+
+    def _law(self, p: Array, v: Array) -> FrictionCoefficient:
+        s = v**-self.inverse_m
+        pressure_part = self.alpha * p ** (self.n - 1.0)
+        numerator = pressure_part + self.beta
+        inverse = 1.0 / (self.a + s * (self.b + s * self.c))
+        mu = numerator * inverse
+        dmu_dp = (self.n - 1.0) * pressure_part / p * inverse
+        dmu_ds = -mu * inverse * (self.b + 2.0 * self.c * s)
+        return FrictionCoefficient(mu, dmu_dp, dmu_ds * (-self.inverse_m) * s / v)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThermalFriction:
+    """A law mu(p, v) whose velocity is shifted by the temperature, eqs. (7)-(8).
+
+    Parameters
+    ----------
+    law : FrictionLaw
+        Law at the reference temperature.
+    wlf : WLF or None
+        Shift of the velocity; None leaves the law independent of temperature.
+    T_ref_C : float
+        Temperature at which the law was measured [deg C].
+
+    Notes
+    -----
+    ``v_equ = v a_T(T)/a_T(T_ref)`` with T the rubber's local surface temperature: a hotter surface
+    acts like a slower one. The law's floor of the speed applies to v_equ.
+    """
+
+    law: FrictionLaw
+    wlf: WLF | None = None
+    T_ref_C: float = 20.0
+
+    def __post_init__(self) -> None:
+        require_finite(T_ref_C=self.T_ref_C)
+
+    def coefficient(self, p: ArrayLike, v: ArrayLike, T_C: ArrayLike) -> Array:
+        """Friction coefficient [-] at p [N/mm^2], v [mm/s] and T_C [deg C] (broadcast)."""
+        return self.evaluate(p, v, T_C).mu
+
+    def evaluate(self, p: ArrayLike, v: ArrayLike, T_C: ArrayLike) -> ThermalFrictionCoefficient:
+        """Friction coefficient with its derivatives at p [N/mm^2], v [mm/s], T_C [deg C]."""
+        p, v, T = np.broadcast_arrays(
+            np.asarray(p, dtype=float), np.asarray(v, dtype=float), np.asarray(T_C, dtype=float)
+        )
+        if self.wlf is None:
+            return ThermalFrictionCoefficient(*self.law.evaluate(p, v), np.zeros(p.shape))
+        shift = self.wlf.equivalent_velocity(1.0, T, self.T_ref_C)
+        mu, dmu_dp, dmu_dv_equ = self.law.evaluate(p, v * shift)
+        dv_equ_dT = self.wlf.dequivalent_velocity_dT(v, T, self.T_ref_C)
+        return ThermalFrictionCoefficient(mu, dmu_dp, dmu_dv_equ * shift, dmu_dv_equ * dv_equ_dT)
+
+
+def shifted(law: FrictionLaw, wlf: WLF | None, T_ref_C: float = 20.0) -> ThermalFriction:
+    """Law with its velocity shifted by the temperature (see `ThermalFriction`)."""
+    return ThermalFriction(law=law, wlf=wlf, T_ref_C=T_ref_C)

@@ -1,0 +1,406 @@
+"""Isochoric strain energies of rubber.
+
+In plane strain (F33 = 1) every energy of the two isochoric invariants is a function of
+``I1 = F:F + 1`` and ``J = det F`` alone, because ``I2 = J^2 + I1 - 1``. With
+``I1b = J^(-2/3) I1`` and ``I2b = J^(-4/3) I2`` all models here have the form ``W = w(s)`` with one
+mixed invariant ``s = c1 I1b + c2 I2b``; a model states its ``c1, c2`` and ``w, w', w''``, and the
+chain rule is written once.
+
+References
+----------
+.. [1] Hofstetter, K. et al., "Efficient treatment of rubber friction problems in industrial
+   applications", eqs. (1)-(4).
+.. [2] Kilian, H.-G., Polymer 22 (1981) 209-217 (van der Waals network).
+.. [3] Arruda, E. M., Boyce, M. C., J. Mech. Phys. Solids 41 (1993) 389-412.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from materials.checks import require_between, require_finite, require_positive
+
+Array = NDArray[np.float64]
+Mode = Literal["uniaxial", "equibiaxial", "planar"]
+MODES: tuple[str, ...] = get_args(Mode)
+
+# Below this value of s - 3 the curvature term of the van der Waals energy contributes less than
+# 1e-7 G to dP/dF (its limit at the undeformed state is zero) but would amplify rounding.
+_UNDEFORMED = 1e-14
+
+
+class EnergyDerivatives(NamedTuple):
+    """Isochoric energy per reference volume and its partial derivatives [N/mm^2].
+
+    ``W_1`` is dW/dI1 at constant J, ``W_J`` is dW/dJ at constant I1, and so on.
+    """
+
+    W: Array
+    W_1: Array
+    W_J: Array
+    W_11: Array
+    W_1J: Array
+    W_JJ: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hyperelastic(ABC):
+    """Base of the isochoric energies ``W = w(s)``, ``s = c1 I1b + c2 I2b``."""
+
+    @property
+    @abstractmethod
+    def mixture(self) -> tuple[float, float]:
+        """Weights ``(c1, c2)`` of the two isochoric invariants in the mixed invariant s [-]."""
+
+    @abstractmethod
+    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+        """Energy ``w(s)`` [N/mm^2] with its first and second derivative with respect to s."""
+
+    @property
+    @abstractmethod
+    def initial_shear_modulus(self) -> float:
+        """Shear modulus G of the undeformed state [N/mm^2]."""
+
+    def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
+        """Whether the energy exists at the state (J > 0, finite, below a locking stretch).
+
+        Parameters
+        ----------
+        I1, J : array_like
+            First invariant F:F + 1 and determinant of F [-], any common shape.
+        """
+        I1, J = np.asarray(I1, dtype=float), np.asarray(J, dtype=float)
+        with np.errstate(all="ignore"):
+            valid = (J > 0.0) & np.isfinite(I1) & np.isfinite(J)
+            return valid & self._below_locking(I1, np.where(J > 0.0, J, 1.0))
+
+    def _below_locking(self, I1: Array, J: Array) -> NDArray[np.bool_] | np.bool_:
+        return np.True_
+
+    def derivatives(self, I1: ArrayLike, J: ArrayLike) -> EnergyDerivatives:
+        """Isochoric energy and its derivatives with respect to the plane-strain invariants.
+
+        Parameters
+        ----------
+        I1, J : array_like
+            First invariant F:F + 1 and determinant of F [-], any common shape. The state must be
+            admissible; elsewhere the values are not meaningful (NaN, or of no physical use).
+
+        Returns
+        -------
+        EnergyDerivatives
+            Arrays of the common shape [N/mm^2].
+
+        Notes
+        -----
+        s is linear in I1, so ``s_11 = 0`` and four products suffice. This is the inner loop of
+        the Newton assembly: only one cube root and one division per point.
+        """
+        I1, J = np.asarray(I1, dtype=float), np.asarray(J, dtype=float)
+        with np.errstate(all="ignore"):
+            s, s_1, s_J, s_1J, s_JJ = self._mixed_invariant(I1, J)
+            W, w1, w2 = self.energy(s)
+            bend = w2 * s_1
+            return EnergyDerivatives(
+                W=W,
+                W_1=w1 * s_1,
+                W_J=w1 * s_J,
+                W_11=bend * s_1,
+                W_1J=bend * s_J + w1 * s_1J,
+                W_JJ=w2 * (s_J * s_J) + w1 * s_JJ,
+            )
+
+    def _mixed_invariant(self, I1: Array, J: Array) -> tuple[Array, ...]:
+        """s and its derivatives ``s_1, s_J, s_1J, s_JJ`` (s_11 is zero)."""
+        c1, c2 = self.mixture
+        inverse = 1.0 / J
+        cube = np.cbrt(inverse)
+        s_1 = c1 * (cube * cube)
+        s = s_1 * I1
+        slope = inverse * (-2.0 / 3.0)
+        s_1J = s_1 * slope
+        s_J = s * slope
+        s_JJ = s_J * inverse * (-5.0 / 3.0)
+        if c2 == 0.0:
+            return s, s_1, s_J, s_1J, s_JJ
+        # I2b = (I1 - 1) J^(-4/3) + J^(2/3)
+        fourth = c2 * (cube * inverse)
+        part = fourth * (I1 - 1.0)
+        s_1 = s_1 + fourth
+        s = s + part + fourth * (J * J)
+        s_1J = s_1J + 2.0 * slope * fourth
+        part_J = 2.0 * slope * part
+        s_J = s_J + part_J + (2.0 / 3.0) * J * fourth
+        s_JJ = s_JJ - (7.0 / 3.0) * inverse * part_J - (2.0 / 9.0) * fourth
+        return s, s_1, s_J, s_1J, s_JJ
+
+    def invariant_slopes(self, I1b: ArrayLike, I2b: ArrayLike) -> tuple[Array, Array]:
+        """Slopes ``dW/dI1b, dW/dI2b`` [N/mm^2] at given isochoric invariants [-]."""
+        c1, c2 = self.mixture
+        s = c1 * np.asarray(I1b, dtype=float) + c2 * np.asarray(I2b, dtype=float)
+        with np.errstate(all="ignore"):
+            _, w1, _ = self.energy(s)
+        return c1 * w1, c2 * w1
+
+    def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+        """Nominal stress of the incompressible material in a homogeneous test.
+
+        Parameters
+        ----------
+        stretch : array_like
+            Stretch in the loading direction [-], above zero.
+        mode : {"uniaxial", "equibiaxial", "planar"}
+            Kind of test; planar is also called pure shear.
+
+        Returns
+        -------
+        ndarray
+            Force per undeformed area [N/mm^2], NaN beyond a locking stretch.
+        """
+        lam = np.asarray(stretch, dtype=float)
+        if not np.all(lam > 0.0):
+            raise ValueError(f"stretch holds {np.min(lam):g}; expected values above zero")
+        I1b, I2b, k1, k2 = incompressible_kinematics(lam, mode)
+        W_a, W_b = self.invariant_slopes(I1b, I2b)
+        return W_a * k1 + W_b * k2
+
+
+def incompressible_kinematics(lam: Array, mode: str) -> tuple[Array, Array, Array, Array]:
+    """Invariants and stress factors of the homogeneous incompressible tests.
+
+    Parameters
+    ----------
+    lam : ndarray
+        Stretch in the loading direction [-].
+    mode : {"uniaxial", "equibiaxial", "planar"}
+
+    Returns
+    -------
+    I1b, I2b, k1, k2 : ndarray
+        Invariants and the factors in ``P = k1 dW/dI1b + k2 dW/dI2b``.
+    """
+    if mode == "uniaxial":
+        k1 = 2.0 * (lam - 1.0 / lam**2)
+        return lam**2 + 2.0 / lam, 2.0 * lam + 1.0 / lam**2, k1, k1 / lam
+    if mode == "equibiaxial":
+        k1 = 2.0 * (lam - 1.0 / lam**5)
+        return 2.0 * lam**2 + 1.0 / lam**4, lam**4 + 2.0 / lam**2, k1, k1 * lam**2
+    if mode == "planar":
+        k1 = 2.0 * (lam - 1.0 / lam**3)
+        I1b = lam**2 + 1.0 + 1.0 / lam**2
+        return I1b, I1b, k1, k1
+    raise ValueError(f"mode is {mode!r}; expected one of {', '.join(MODES)}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class NeoHooke(Hyperelastic):
+    """Neo-Hookean energy ``W = G/2 (I1b - 3)``.
+
+    Parameters
+    ----------
+    G : float
+        Shear modulus [N/mm^2].
+    """
+
+    G: float
+
+    def __post_init__(self) -> None:
+        require_positive(G=self.G)
+
+    @property
+    def mixture(self) -> tuple[float, float]:
+        return 1.0, 0.0
+
+    @property
+    def initial_shear_modulus(self) -> float:
+        return self.G
+
+    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+        half = np.full_like(s, 0.5 * self.G)
+        return half * (s - 3.0), half, np.zeros_like(s)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MooneyRivlin(Hyperelastic):
+    """Mooney-Rivlin energy ``W = C10 (I1b - 3) + C01 (I2b - 3)``, eq. (1).
+
+    Parameters
+    ----------
+    C10, C01 : float
+        Constants [N/mm^2]; their sum is half the shear modulus and must be positive.
+    """
+
+    C10: float
+    C01: float
+
+    def __post_init__(self) -> None:
+        require_finite(C10=self.C10, C01=self.C01)
+        require_positive(**{"C10 + C01": self.C10 + self.C01})
+
+    @property
+    def mixture(self) -> tuple[float, float]:
+        return self.C10, self.C01
+
+    @property
+    def initial_shear_modulus(self) -> float:
+        return 2.0 * (self.C10 + self.C01)
+
+    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+        return s - 3.0 * (self.C10 + self.C01), np.ones_like(s), np.zeros_like(s)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Yeoh(Hyperelastic):
+    """Yeoh energy ``W = C10 x + C20 x^2 + C30 x^3`` with ``x = I1b - 3``, eq. (2).
+
+    Parameters
+    ----------
+    C10, C20, C30 : float
+        Constants [N/mm^2]; C10 is half the shear modulus and must be positive.
+
+    Notes
+    -----
+    A negative C30 (Table 1, "bars, series 1, load") lets the energy lose ellipticity at large I1b.
+    """
+
+    C10: float
+    C20: float = 0.0
+    C30: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_positive(C10=self.C10)
+        require_finite(C20=self.C20, C30=self.C30)
+
+    @property
+    def mixture(self) -> tuple[float, float]:
+        return 1.0, 0.0
+
+    @property
+    def initial_shear_modulus(self) -> float:
+        return 2.0 * self.C10
+
+    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+        x = s - 3.0
+        cubic = self.C30 * x
+        W = x * (self.C10 + x * (self.C20 + cubic))
+        slope = self.C10 + x * (2.0 * self.C20 + 3.0 * cubic)
+        return W, slope, 2.0 * self.C20 + 6.0 * cubic
+
+
+@dataclass(frozen=True, kw_only=True)
+class VanDerWaals(Hyperelastic):
+    """Van der Waals energy of a real network, eqs. (3)-(4) [2]_.
+
+    ``W = G { -(lambda_m^2 - 3) [ln(1 - eta) + eta] - (2 a/3) ((s - 3)/2)^(3/2) }`` with
+    ``s = (1 - beta) I1b + beta I2b`` and ``eta = sqrt((s - 3)/(lambda_m^2 - 3))``.
+
+    Parameters
+    ----------
+    G : float
+        Initial shear modulus [N/mm^2].
+    lambda_m : float
+        Locking stretch [-], above sqrt(3).
+    a : float
+        Global interaction parameter [-].
+    beta : float
+        Weight of the second invariant [-], from 0 to 1.
+
+    Notes
+    -----
+    w'' is singular like (s - 3)^(-1/2) at the undeformed state, while its factors in dP/dF vanish
+    like s - 3. The product tends to zero, so w'' is set to zero there. Beyond eta = 1 the energy
+    does not exist and the values are NaN (see `admissible`).
+    """
+
+    G: float
+    lambda_m: float
+    a: float
+    beta: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_positive(G=self.G)
+        require_finite(lambda_m=self.lambda_m, a=self.a)
+        if self.lambda_m <= 0.0 or self.lambda_m**2 <= 3.0:
+            raise ValueError(
+                f"lambda_m is {self.lambda_m:g}; expected a locking stretch above sqrt(3) = 1.732"
+            )
+        require_between(0.0, 1.0, beta=self.beta)
+
+    @property
+    def mixture(self) -> tuple[float, float]:
+        return 1.0 - self.beta, self.beta
+
+    @property
+    def initial_shear_modulus(self) -> float:
+        return self.G
+
+    def _below_locking(self, I1: Array, J: Array) -> NDArray[np.bool_]:
+        return self._mixed_invariant(I1, J)[0] < self.lambda_m**2
+
+    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+        G, limit = self.G, self.lambda_m**2 - 3.0
+        x = np.maximum(s - 3.0, 0.0)
+        root = np.sqrt(x)
+        eta = root * limit**-0.5
+        gap = np.where(eta < 1.0, 1.0 - eta, np.nan)
+        inverse = 1.0 / gap
+        attraction = self.a * 2.0**-1.5
+        W = -G * (limit * (np.log(gap) + eta) + (4.0 / 3.0) * attraction * (x * root))
+        w1 = G * (0.5 * inverse - attraction * root)
+        curved = x > _UNDEFORMED
+        bend = inverse * inverse * (0.5 * limit**-0.5) - attraction
+        w2 = np.where(curved, 0.5 * G * bend / np.where(curved, root, 1.0), 0.0)
+        return W, w1, w2
+
+
+# Coefficients of the five-term expansion of the inverse Langevin function, as in [3].
+_ARRUDA_BOYCE = (1 / 2, 1 / 20, 11 / 1050, 19 / 7000, 519 / 673750)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ArrudaBoyce(Hyperelastic):
+    """Eight-chain energy in its five-term expansion [3]_.
+
+    ``W = C1 sum_i c_i lambda_m^(2 - 2 i) (I1b^i - 3^i)``
+
+    Parameters
+    ----------
+    C1 : float
+        Rubbery modulus [N/mm^2].
+    lambda_m : float
+        Limiting chain stretch [-], above 1.
+    """
+
+    C1: float
+    lambda_m: float
+
+    def __post_init__(self) -> None:
+        require_positive(C1=self.C1)
+        require_finite(lambda_m=self.lambda_m)
+        if self.lambda_m <= 1.0:
+            raise ValueError(f"lambda_m is {self.lambda_m:g}; expected a stretch above 1")
+
+    @property
+    def mixture(self) -> tuple[float, float]:
+        return 1.0, 0.0
+
+    @property
+    def initial_shear_modulus(self) -> float:
+        return float(2.0 * self.energy(np.array(3.0))[1])
+
+    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+        q = self.lambda_m**-2
+        weights = [self.C1 * c * q**i for i, c in enumerate(_ARRUDA_BOYCE)]
+        W = np.zeros_like(s)
+        w1 = np.zeros_like(s)
+        w2 = np.zeros_like(s)
+        for i in range(len(weights), 0, -1):  # Horner's scheme
+            weight = weights[i - 1]
+            W = W * s + weight
+            w1 = w1 * s + i * weight
+            if i > 1:
+                w2 = w2 * s + i * (i - 1) * weight
+        return W * s - sum(w * 3.0**i for i, w in enumerate(weights, 1)), w1, w2
