@@ -1,0 +1,157 @@
+"""The case: everything a simulation needs to know, frozen, checked, with its units.
+
+A case file is TOML in the paper's units, the unit in each key's name. The conversion to the
+units of the calculation (N, mm, s, t, K) happens in the properties of the sections, nowhere else.
+"""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
+
+from fem.case_base import Section, refuse
+from fem.case_friction import Friction
+from fem.case_heat import Heat
+from fem.case_reading import Source, apply_overrides, read_toml
+from fem.case_rubber import Rubber
+from fem.case_sections import Block, Loading, Output, Road, Solver
+from fem.case_validation import case_error, refuse_unknown_keys
+from fem.case_writing import section_lines
+
+#: Mean pressure over initial shear modulus beyond which no rubber block keeps its shape [-].
+_HARDEST_PRESS = 10.0
+
+
+class Case(Section):
+    """One sliding event of one tread block.
+
+    Attributes
+    ----------
+    block, rubber, road, friction, heat, loading, solver, output : Section
+        The tables of the case file, in its units.
+    """
+
+    loading: Loading
+    block: Block = Field(Block())
+    rubber: Rubber = Field(default_factory=Rubber)
+    road: Road = Field(Road())
+    friction: Friction = Field(default_factory=Friction)
+    heat: Heat = Field(Heat())
+    solver: Solver = Field(Solver())
+    output: Output = Field(Output())
+
+    _source: str = PrivateAttr(default="case")
+
+    @model_validator(mode="after")
+    def _makes_sense_together(self) -> Case:
+        pressure = self.loading.mean_pressure_N_per_mm2
+        modulus = self.rubber.model().initial_shear_modulus
+        if pressure > _HARDEST_PRESS * modulus:
+            refuse(
+                "loading.mean_pressure_N_per_mm2",
+                str(pressure),
+                f"at most {_HARDEST_PRESS * modulus:.4g} N/mm^2, ten times the shear modulus",
+            )
+        pole = self.friction.T_ref_C - self.friction.d2_K
+        if self.friction.wlf and self.heat.ambient_C <= pole:
+            refuse(
+                "heat.ambient_C",
+                str(self.heat.ambient_C),
+                f"above {pole:.6g}, where the WLF shift of [friction] ends",
+            )
+        return self
+
+    @property
+    def source(self) -> str:
+        """Name of the file (or of the caller) the case came from."""
+        return self._source
+
+    @classmethod
+    def from_toml(cls, path: str | Path, overrides: Mapping[str, Any] | None = None) -> Case:
+        """Read a case file.
+
+        Parameters
+        ----------
+        path : str or Path
+            The TOML file.
+        overrides : mapping, optional
+            Dotted keys to values that win over the file, e.g.
+            ``{"loading.velocity_mm_per_s": 50.0}``.
+
+        Raises
+        ------
+        CaseError
+            With file, key, what was found and what was expected, in one line.
+        """
+        path = Path(path)
+        source = Source(tables=read_toml(path), file=str(path), folder=path.absolute().parent)
+        return cls._from_source(source, overrides)
+
+    @classmethod
+    def from_dict(
+        cls,
+        tables: Mapping[str, Any],
+        *,
+        source: str = "case",
+        folder: str | Path = ".",
+        overrides: Mapping[str, Any] | None = None,
+    ) -> Case:
+        """Build a case from nested dictionaries with the keys of the case file.
+
+        Parameters
+        ----------
+        tables : mapping
+            Section names to mappings of keys.
+        source : str
+            Name used in error messages.
+        folder : str or Path
+            What relative references to parameter files are relative to.
+        overrides : mapping, optional
+            Dotted keys to values that win over `tables`.
+        """
+        raw = copy.deepcopy(dict(tables))
+        return cls._from_source(Source(tables=raw, file=source, folder=Path(folder)), overrides)
+
+    @classmethod
+    def _from_source(cls, source: Source, overrides: Mapping[str, Any] | None) -> Case:
+        apply_overrides(source, dict(overrides or {}))
+        refuse_unknown_keys(source, cls)
+        try:
+            case = cls.model_validate(source.tables)
+        except ValidationError as error:
+            raise case_error(error, source) from None
+        case._source = source.file
+        return case
+
+    def with_overrides(self, overrides: Mapping[str, Any]) -> Case:
+        """Return a case that differs in the given dotted keys."""
+        return Case.from_dict(self.to_dict(), source=self.source, overrides=overrides)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the resolved case as nested dictionaries with the keys of the case file."""
+        return self.model_dump(exclude_none=True, by_alias=True)
+
+    def to_toml(self, heading: str = "Resolved case: every key as it is used.") -> str:
+        """Return the resolved case as TOML with a comment of meaning and unit at each key."""
+        lines = [f"# {line}" for line in heading.splitlines()]
+        for name in ("block", "rubber", "road", "friction", "heat", "loading", "solver", "output"):
+            lines += ["", *section_lines(name, getattr(self, name))]
+        return "\n".join(lines) + "\n"
+
+    def __eq__(self, other: object) -> bool:
+        """Compare what is simulated; where it was read from does not matter."""
+        return isinstance(other, Case) and self.to_dict() == other.to_dict()
+
+    def __hash__(self) -> int:
+        return hash(self.hash())
+
+    def hash(self) -> str:
+        """Return the SHA-256 of the resolved content (not of the file's name or layout)."""
+        canonical = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(canonical.encode()).hexdigest()

@@ -1,0 +1,106 @@
+"""The [friction] section: law, floors and the WLF shift of the sliding velocity."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Literal
+
+from pydantic import Field, model_validator
+
+from contact.friction import (
+    CoulombFriction,
+    ExponentialFriction,
+    FrictionLaw,
+    HuemerFriction,
+    ThermalFriction,
+)
+from fem.case_base import Celsius, Finite, NotNegative, Positive, Section, refuse, refuse_sentence
+from fem.case_errors import describe
+from materials.wlf import WLF
+
+LAW_CLASSES: dict[str, type[FrictionLaw]] = {
+    "huemer": HuemerFriction,
+    "exponential": ExponentialFriction,
+    "coulomb": CoulombFriction,
+}
+
+
+def _parameters(law: type[FrictionLaw]) -> dict[str, float | None]:
+    """Parameters of a law with their defaults (None: must be given), floors left out."""
+    floors = {item.name for item in dataclasses.fields(FrictionLaw)}
+    return {
+        item.name: None if item.default is dataclasses.MISSING else item.default
+        for item in dataclasses.fields(law)
+        if item.name not in floors
+    }
+
+
+#: Parameters of each law with the paper's Table 2 as defaults.
+LAWS = {name: _parameters(law) for name, law in LAW_CLASSES.items()}
+ALL_PARAMETERS = tuple(key for law in LAWS.values() for key in law)
+DEFAULT_LAW = "huemer"
+
+
+class Friction(Section):
+    """Friction between the block and the road (p in N/mm^2, v in mm/s)."""
+
+    law: Literal["huemer", "exponential", "coulomb"] = Field(
+        "huemer", description='"huemer", eq. (6); "exponential", eq. (5); "coulomb"'
+    )
+    alpha: Finite | None = Field(None, description="Huemer, factor of p^(n-1)")
+    beta: Finite | None = Field(None, description="Huemer, pressure-independent part [-]")
+    n: Finite | None = Field(None, description="Huemer, exponent of the pressure plus one [-]")
+    inverse_m: Finite | None = Field(None, description="Huemer, 1/m, exponent of the velocity [-]")
+    a: Finite | None = Field(None, description="Huemer, denominator, constant [-]")
+    b: Finite | None = Field(None, description="Huemer, denominator, factor of v^(-1/m)")
+    c: Finite | None = Field(None, description="Huemer, denominator, factor of v^(-2/m)")
+    A: Positive | None = Field(None, description="exponential law, factor")
+    B: Finite | None = Field(None, description="exponential law, exponent of the pressure [-]")
+    C: Finite | None = Field(None, description="exponential law, exponent of the velocity [-]")
+    mu: NotNegative | None = Field(None, description="Coulomb's constant friction coefficient [-]")
+    wlf: bool = Field(True, description="shift the velocity with the surface temperature, eq. (7)")
+    d1: Positive = Field(43.1, description="WLF constant [-]")
+    d2_K: Positive = Field(509.4, description="WLF constant [K]")
+    T_ref_C: Celsius = Field(20.0, description="temperature the law was measured at [deg C]")
+    p_min_N_per_mm2: Positive = Field(1e-3, description="pressure floor of the law [N/mm^2]")
+    v_min_mm_per_s: Positive = Field(1.0, description="velocity floor of the law [mm/s]")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _parameters_of_the_law(cls, data: Any) -> Any:
+        if not isinstance(data, dict):
+            return data
+        law = data.get("law", DEFAULT_LAW)
+        if not isinstance(law, str) or law not in LAWS:
+            return data
+        for key in ALL_PARAMETERS:
+            if data.get(key) is not None and key not in LAWS[law]:
+                refuse(
+                    key,
+                    describe(data[key]),
+                    f'only parameters of law = "{law}": {", ".join(LAWS[law])}',
+                )
+        filled = {**LAWS[law], **{k: v for k, v in data.items() if v is not None}}
+        for key, value in filled.items():
+            if value is None:
+                refuse(key, "nothing", f'a number: law = "{law}" needs {key}')
+        return filled
+
+    @model_validator(mode="after")
+    def _law_exists(self) -> Friction:
+        try:
+            self.law_object()
+        except ValueError as error:
+            refuse_sentence("law", self.law, error)
+        return self
+
+    def plain_law(self) -> FrictionLaw:
+        """Build the law without the temperature shift."""
+        floors = {"p_min": self.p_min_N_per_mm2, "v_min": self.v_min_mm_per_s}
+        parameters = {key: getattr(self, key) for key in LAWS[self.law]}
+        return LAW_CLASSES[self.law](**parameters, **floors)
+
+    def law_object(self) -> ThermalFriction:
+        """Build the law mu(p, v, T) with its WLF shift."""
+        shift = WLF(d1=self.d1, d2_K=self.d2_K) if self.wlf else None
+        return ThermalFriction(law=self.plain_law(), wlf=shift, T_ref_C=self.T_ref_C)

@@ -1,0 +1,160 @@
+"""The plain sections of a case file: block, road, loading, solver and output."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Discriminator, Field, Tag, field_validator, model_validator
+
+from fem.case_base import Count, NotNegative, Positive, Section, refuse
+from materials.thermal import ThermalProperties
+
+#: Elements a mesh may have at most. 250,000 take about ten gigabytes in the sparse solver.
+LARGEST_MESH = 250_000
+#: Fastest sliding that makes sense [mm/s]; beyond 100 m/s the number is in the wrong unit.
+FASTEST = 1.0e5
+
+
+class MeshSpec(Section):
+    """Cell counts and smallest cells of a graded mesh, fine at the bottom and the leading edge."""
+
+    cells_x: Count = Field(description="cells along the length [-]")
+    cells_y: Count = Field(description="cells over the height [-]")
+    smallest_x_mm: Positive = Field(description="length of the cell at the leading edge [mm]")
+    smallest_y_mm: Positive = Field(description="height of the cell at the bottom [mm]")
+
+    @model_validator(mode="after")
+    def _not_huge(self) -> MeshSpec:
+        cells = self.cells_x * self.cells_y
+        if cells > LARGEST_MESH:
+            refuse(
+                "cells_x",
+                f"{self.cells_x} x {self.cells_y} = {cells} elements",
+                f"at most {LARGEST_MESH} elements",
+            )
+        return self
+
+
+def _name_or_table(value: object) -> str:
+    return "<table>" if isinstance(value, (dict, MeshSpec)) else "<name>"
+
+
+MeshName = Literal["coarse", "default", "fine"]
+Mesh = Annotated[
+    Annotated[MeshName, Tag("<name>")] | Annotated[MeshSpec, Tag("<table>")],
+    Discriminator(_name_or_table),
+]
+
+
+class Block(Section):
+    """The tread block's cross-section."""
+
+    length_mm: Positive = Field(20.0, description="length along the sliding direction [mm]")
+    height_mm: Positive = Field(8.0, description="height from the road to the platen [mm]")
+    mesh: Mesh = Field(
+        "default",
+        description='"coarse", "default", "fine" or a table of cells_x, cells_y, smallest_x_mm, '
+        "smallest_y_mm",
+    )
+    rigid: bool = Field(
+        False, description="true: no deformation, uniform pressure; heat and friction only"
+    )
+
+    @model_validator(mode="after")
+    def _mesh_fits(self) -> Block:
+        if isinstance(self.mesh, MeshSpec):
+            _check_grading("length_mm", self.length_mm, self.mesh.cells_x, "x", self.mesh)
+            _check_grading("height_mm", self.height_mm, self.mesh.cells_y, "y", self.mesh)
+        return self
+
+
+def _check_grading(side: str, size: float, cells: int, axis: str, mesh: MeshSpec) -> None:
+    key = f"smallest_{axis}_mm"
+    uniform = size / cells
+    # A hair of room, so that a uniform mesh may be asked for with a rounded cell size.
+    if getattr(mesh, key) > uniform * (1.0 + 1e-6):
+        refuse(
+            f"mesh.{key}",
+            str(getattr(mesh, key)),
+            f"at most {uniform:.6g}, the cell of a uniform mesh ({side} / cells_{axis})",
+        )
+
+
+class Road(Section):
+    """Thermal data of the road (asphalt)."""
+
+    conductivity_W_per_mK: Positive = Field(0.70, description="thermal conductivity [W/(m K)]")
+    density_kg_per_m3: Positive = Field(2000.0, description="density [kg/m^3]")
+    specific_heat_kJ_per_kgK: Positive = Field(0.92, description="specific heat [kJ/(kg K)]")
+
+    @property
+    def thermal(self) -> ThermalProperties:
+        """Thermal properties in N, mm, s, t, K."""
+        return ThermalProperties.from_paper_units(
+            self.conductivity_W_per_mK, self.density_kg_per_m3, self.specific_heat_kJ_per_kgK
+        )
+
+
+class Loading(Section):
+    """What is done to the block. The only section that must be given."""
+
+    mean_pressure_N_per_mm2: Positive = Field(
+        description="pressure on the top of the block, averaged over its length [N/mm^2]"
+    )
+    velocity_mm_per_s: Annotated[float, Field(ge=-FASTEST, le=FASTEST, allow_inf_nan=False)] = (
+        Field(description="sliding velocity [mm/s]; negative slides to the left")
+    )
+    distance_mm: Positive = Field(description="sliding distance of the platen [mm]")
+    top: Literal["platen", "pressure"] = Field(
+        "platen",
+        description='"platen": rigid plate glued to the top; "pressure": free, uniformly pressed',
+    )
+
+    @field_validator("velocity_mm_per_s")
+    @classmethod
+    def _moves(cls, value: float) -> float:
+        if value == 0.0:
+            refuse("", str(value), "a velocity other than zero (negative slides to the left)")
+        return value
+
+
+class Solver(Section):
+    """Numerical settings; the defaults are meant for every case."""
+
+    tolerance: Annotated[float, Field(gt=0.0, le=1e-2, allow_inf_nan=False)] = Field(
+        1e-8, description="residual of the balance of forces relative to the load [-]"
+    )
+    step_mm_initial: Positive = Field(0.02, description="first sliding step [mm]")
+    step_mm_max: Positive = Field(1.0, description="longest sliding step [mm]")
+    step_mm_min: Positive = Field(1e-5, description="shortest sliding step before giving up [mm]")
+    newton_iterations_max: Count = Field(25, description="Newton iterations per step at most [-]")
+    friction_passes: Count = Field(
+        2, description="passes per step over the lagged friction coefficient [-]"
+    )
+    inertia: bool = Field(True, description="backward-Euler inertia of the rubber")
+    viscous_time_s: NotNegative = Field(
+        0.01, description="Kelvin-Voigt relaxation time of the regularisation [s]; 0 is off"
+    )
+    heat_step_mm: Positive = Field(0.5, description="longest sliding distance per heat step [mm]")
+    steps_scale: Positive = Field(1.0, description="factor on all steps; 0.5 halves them [-]")
+    linear_solver: Literal["auto", "superlu", "pardiso"] = Field(
+        "auto", description='"auto", "superlu" or "pardiso" (extra "fast")'
+    )
+
+    @model_validator(mode="after")
+    def _steps_in_order(self) -> Solver:
+        if self.step_mm_min > self.step_mm_initial:
+            refuse("step_mm_min", str(self.step_mm_min), f"at most {self.step_mm_initial}")
+        if self.step_mm_initial > self.step_mm_max:
+            refuse("step_mm_initial", str(self.step_mm_initial), f"at most {self.step_mm_max}")
+        return self
+
+
+class Output(Section):
+    """What a run writes besides its tables."""
+
+    snapshots: Annotated[int, Field(ge=1, le=10_000)] = Field(
+        10, description="field snapshots over the slide [-]"
+    )
+    vtu: bool = Field(True, description="write the snapshots for ParaView")
+    figures: bool = Field(True, description="draw the figures of the run")
