@@ -11,9 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from materials.checks import require_between, require_finite, require_positive
+from materials.checks import require_between, require_finite, require_not_negative
 
 Array = NDArray[np.float64]
+
+# Keeps 0 * infinity out of the law without touching any pressure that a contact can have.
+_NO_PRESSURE = 1e-100
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +39,7 @@ class HeatPartition:
     cap: float = 1.0
 
     def __post_init__(self) -> None:
-        require_positive(prefactor=self.prefactor)
+        require_not_negative(prefactor=self.prefactor)
         require_finite(exponent=self.exponent)
         require_between(0.0, 1.0, cap=self.cap)
 
@@ -45,7 +48,7 @@ class HeatPartition:
         return np.minimum(self.uncapped(p), self.cap)
 
     def uncapped(self, p: ArrayLike) -> Array:
-        """Partition of eq. (14) without the cap [-]; infinite at zero pressure."""
-        p = np.maximum(np.asarray(p, dtype=float), 0.0)
-        with np.errstate(divide="ignore"):
-            return self.prefactor * p**self.exponent
+        """Partition of eq. (14) without the cap [-]; huge, not infinite, at zero pressure."""
+        return (
+            self.prefactor * np.maximum(np.asarray(p, dtype=float), _NO_PRESSURE) ** self.exponent
+        )

@@ -348,7 +348,7 @@ class VanDerWaals(Hyperelastic):
         gap = np.where(eta < 1.0, 1.0 - eta, np.nan)
         inverse = 1.0 / gap
         attraction = self.a * 2.0**-1.5
-        W = -G * (limit * (np.log(gap) + eta) + (4.0 / 3.0) * attraction * (x * root))
+        W = -G * (limit * (np.log(gap) + eta) + (2.0 / 3.0) * attraction * (x * root))
         w1 = G * (0.5 * inverse - attraction * root)
         curved = x > _UNDEFORMED
         bend = inverse * inverse * (0.5 * limit**-0.5) - attraction

@@ -1,0 +1,114 @@
+"""Friction laws: numbers of the paper, derivatives, floors, temperature."""
+
+import numpy as np
+import pytest
+
+from contact import CoulombFriction, ExponentialFriction, HuemerFriction, ThermalFriction, shifted
+from materials import WLF
+
+LAWS = {
+    "coulomb": CoulombFriction(mu=0.9),
+    "exponential": ExponentialFriction(),
+    "huemer": HuemerFriction(),
+}
+P = np.array([0.05, 0.2, 0.3, 0.9])
+V = np.array([2.0, 26.5, 50.0, 300.0])
+
+
+def test_coefficients_of_table_2():
+    assert HuemerFriction().coefficient(0.3, 26.5) == pytest.approx(0.960, abs=5e-4)
+    assert HuemerFriction().coefficient(0.3, 300.0) == pytest.approx(0.9055, abs=5e-5)
+    assert ExponentialFriction().coefficient(0.3, 300.0) == pytest.approx(0.973, abs=5e-4)
+
+
+def test_huemer_peak_is_at_26_5_mm_per_s():
+    law = HuemerFriction()
+    assert law.peak_velocity == pytest.approx(26.5, abs=0.05)
+    around = law.coefficient(0.3, law.peak_velocity * np.array([0.99, 1.0, 1.01]))
+    assert around[1] > around[0] and around[1] > around[2]
+    assert law.evaluate(0.3, law.peak_velocity).dmu_dv == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_derivatives_match_central_differences(name):
+    law = LAWS[name]
+    p, v = np.meshgrid(P, V)
+    slope = law.evaluate(p, v)
+    h = 1e-6
+    dmu_dp = (law.coefficient(p + h, v) - law.coefficient(p - h, v)) / (2 * h)
+    np.testing.assert_allclose(slope.dmu_dp, dmu_dp, rtol=1e-6, atol=1e-9)
+    h = 1e-4
+    dmu_dv = (law.coefficient(p, v + h) - law.coefficient(p, v - h)) / (2 * h)
+    np.testing.assert_allclose(slope.dmu_dv, dmu_dv, rtol=1e-6, atol=1e-11)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_below_the_floors_the_coefficient_stays_and_its_derivative_is_zero(name):
+    law = LAWS[name]
+    p, v = np.array([-0.1, 0.0, 5e-4, 1e-3]), np.array([0.0, 0.3, 0.9, 1.0])
+    result = law.evaluate(p, v)
+    np.testing.assert_allclose(result.mu, law.coefficient(1e-3, 1.0), rtol=1e-15)
+    assert not np.any(result.dmu_dp) and not np.any(result.dmu_dv)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_direction_of_sliding_does_not_matter(name):
+    right, left = LAWS[name].evaluate(P, V), LAWS[name].evaluate(P, -V)
+    np.testing.assert_array_equal(right.mu, left.mu)
+    np.testing.assert_array_equal(right.dmu_dv, -left.dmu_dv)
+
+
+def test_floors_are_inputs():
+    law = HuemerFriction(p_min=0.01, v_min=5.0)
+    assert law.coefficient(0.3, 0.0) == law.coefficient(0.3, 5.0)
+    assert law.coefficient(0.0, 50.0) == law.coefficient(0.01, 50.0)
+
+
+def test_scaling_huemers_constants_changes_nothing():
+    base, k = HuemerFriction(), 3.7
+    scaled = HuemerFriction(
+        alpha=k * base.alpha, beta=k * base.beta, a=k * base.a, b=k * base.b, c=k * base.c
+    )
+    np.testing.assert_allclose(scaled.coefficient(P, V), base.coefficient(P, V), rtol=1e-13)
+
+
+def test_temperature_shifts_the_velocity_and_gives_its_derivative():
+    law = shifted(HuemerFriction(), WLF(), 20.0)
+    p, v, T = 0.3, np.array([50.0, 300.0, 300.0]), np.array([15.0, 25.0, 32.0])
+    result, h = law.evaluate(p, v, T), 1e-4
+    v_equ = WLF().equivalent_velocity(v, T, 20.0)
+    np.testing.assert_allclose(result.mu, HuemerFriction().coefficient(p, v_equ), rtol=1e-13)
+    slope = (law.coefficient(p, v, T + h) - law.coefficient(p, v, T - h)) / (2 * h)
+    np.testing.assert_allclose(result.dmu_dT, slope, rtol=1e-6)
+    slope = (law.coefficient(p, v + h, T) - law.coefficient(p, v - h, T)) / (2 * h)
+    np.testing.assert_allclose(result.dmu_dv, slope, rtol=1e-6, atol=1e-10)
+    slope = (law.coefficient(p + 1e-6, v, T) - law.coefficient(p - 1e-6, v, T)) / 2e-6
+    np.testing.assert_allclose(result.dmu_dp, slope, rtol=1e-6)
+
+
+def test_a_hot_surface_that_acts_below_the_floor_has_no_temperature_slope():
+    result = ThermalFriction(law=HuemerFriction(), wlf=WLF()).evaluate(0.3, 50.0, 80.0)
+    assert result.dmu_dT == 0.0 and result.mu == HuemerFriction().coefficient(0.3, 0.0)
+
+
+def test_without_wlf_temperature_does_not_matter():
+    law = ThermalFriction(law=HuemerFriction())
+    result = law.evaluate(0.3, np.array([50.0, 300.0]), 90.0)
+    np.testing.assert_array_equal(result.mu, HuemerFriction().coefficient(0.3, [50.0, 300.0]))
+    assert not np.any(result.dmu_dT)
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: CoulombFriction(mu=-0.1), "mu is -0.1; expected zero or more"),
+        (lambda: ExponentialFriction(A=0.0), "A is 0; expected a number above zero"),
+        (lambda: HuemerFriction(inverse_m=-0.1), "inverse_m is -0.1; expected"),
+        (lambda: HuemerFriction(b=-3.0), "make the denominator of Huemer's law vanish"),
+        (lambda: HuemerFriction(v_min=0.0), "v_min is 0; expected a number above zero"),
+        (lambda: HuemerFriction(p_min=float("nan")), "p_min is nan; expected a finite number"),
+    ],
+)
+def test_wrong_parameters_are_refused_in_one_sentence(build, message):
+    with pytest.raises(ValueError, match=message):
+        build()
