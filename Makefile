@@ -1,0 +1,79 @@
+# Every target makes .venv on first use; only Python >= 3.11 and make are needed.
+
+VENV    := .venv
+BIN     := $(VENV)/bin
+READY   := $(VENV)/.ready
+RESULTS := results
+FIGURES := fig2 fig3 fig4 fig6 fig7 fig8 fig9 fig10 fig11 fig12
+TABLES  := table1 table2 table3 table4
+
+# One BLAS thread: the sparse solver gains nothing from more, and the timings stay comparable.
+export OMP_NUM_THREADS ?= 1
+export OPENBLAS_NUM_THREADS ?= 1
+
+.PHONY: help run test test-fast lint format bench figures claims clean distclean $(FIGURES) $(TABLES)
+
+help:
+	@echo "make run        the introductory example into $(RESULTS)/run"
+	@echo "make test       all tests        (make test-fast: without the slow ones)"
+	@echo "make lint       ruff, mypy, import contracts     (make format: rewrite)"
+	@echo "make bench      benchmarks"
+	@echo "make figN       one figure of the paper: $(FIGURES)"
+	@echo "make tableN     one table of the paper: $(TABLES)"
+	@echo "make figures    every figure there is; make claims: the paper's claims"
+	@echo "make clean      remove results and caches (make distclean: .venv too)"
+
+$(READY): setup.cfg pyproject.toml constraints.txt
+	@python=$$(for p in $(PYTHON) python3 python3.14 python3.13 python3.12 python3.11; do \
+	  if $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then echo $$p; break; fi; done); \
+	if [ -z "$$python" ]; then echo "make: no Python >= 3.11 found; install one or say make PYTHON=/path/to/python3" >&2; exit 2; fi; \
+	test -x $(BIN)/python || $$python -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
+	@touch $@
+
+run: $(READY)
+	$(BIN)/treadfem run examples/introductory.toml -o $(RESULTS)/run
+
+test: $(READY)
+	$(BIN)/python -m pytest
+
+test-fast: $(READY)
+	$(BIN)/python -m pytest -m "not slow"
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-logo
+
+format: $(READY)
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+bench: $(READY)
+	$(BIN)/python -m pytest tests/benchmarks --benchmark-only
+
+# Figure 8 shows the introductory example, so that is run first where it has not been.
+$(RESULTS)/run/summary.json: examples/introductory.toml | $(READY)
+	$(BIN)/treadfem run examples/introductory.toml -o $(RESULTS)/run
+
+fig8: $(RESULTS)/run/summary.json
+
+$(FIGURES): fig%: $(READY)
+	$(BIN)/treadfem figure $* -o $(RESULTS)/figures
+
+$(TABLES): table%: $(READY)
+	$(BIN)/treadfem table $*
+
+figures: $(READY) $(RESULTS)/run/summary.json
+	$(BIN)/treadfem figure all -o $(RESULTS)/figures
+
+claims: $(READY)
+	$(BIN)/treadfem claims
+
+clean:
+	rm -rf $(RESULTS) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks
+	find . -name __pycache__ -not -path './$(VENV)/*' -prune -exec rm -rf {} +
+
+distclean: clean
+	rm -rf $(VENV)
