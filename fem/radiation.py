@@ -1,0 +1,51 @@
+"""Radiation of grey surfaces to surroundings at the ambient temperature."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Stefan-Boltzmann constant 5.670374419e-8 W/(m^2 K^4) (CODATA 2018) in N/(mm s K^4).
+STEFAN_BOLTZMANN = 5.670374419e-11
+
+#: Absolute zero [C].
+ABSOLUTE_ZERO_C = -273.15
+
+
+def radiated_flux(T_C: FloatArray, ambient_C: float, emissivity: float) -> FloatArray:
+    """Net heat flux of a convex grey surface to large surroundings [N/(mm s)].
+
+    Parameters
+    ----------
+    T_C : float array
+        Surface temperature [C].
+    ambient_C : float
+        Temperature of the surroundings [C].
+    emissivity : float
+        Emissivity [-].
+    """
+    T, T_a = T_C - ABSOLUTE_ZERO_C, ambient_C - ABSOLUTE_ZERO_C
+    return np.asarray(emissivity * STEFAN_BOLTZMANN * (T**4 - T_a**4))
+
+
+def radiating_length(
+    positions: FloatArray, edges: IntArray, covered: NDArray[np.bool_]
+) -> FloatArray:
+    """Free surface that each node stands for, (n,) [mm]; nodes in contact do not radiate.
+
+    Parameters
+    ----------
+    positions : (n, 2) float array
+        Deformed nodal positions [mm].
+    edges : (m, 2) int array
+        Edges of the free boundary.
+    covered : (n,) bool array
+        Nodes in contact with the road or with the block itself.
+    """
+    length = np.linalg.norm(positions[edges[:, 1]] - positions[edges[:, 0]], axis=1)
+    halves = np.repeat(0.5 * length, 2)
+    total = np.bincount(edges.ravel(), weights=halves, minlength=len(positions))
+    return np.where(covered, 0.0, total)
