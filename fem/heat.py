@@ -15,11 +15,12 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.heat_block import BlockConduction, Factorisation
+from fem.heat_block import BlockConduction, Factorisation, relative_change
 from fem.heat_exchange import Passage, passage, solve_exchange
 from fem.heat_road import RoadConduction, RoadGrid, RoadState
 from fem.mesh import BlockMesh
@@ -28,6 +29,10 @@ from materials.thermal import ThermalProperties
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+
+
+#: Number of conduction matrices kept.
+CACHED = 3
 
 
 def _no_nodes() -> IntArray:
@@ -131,7 +136,17 @@ class HeatState:
 
 @dataclass(frozen=True, kw_only=True)
 class RoadField:
-    """Road temperatures for output: (nr, 2) points in the platen's frame [mm], (ner, 4) cells, [C]."""
+    """Road temperatures for output.
+
+    Attributes
+    ----------
+    points : (nr, 2) float array
+        Nodes in the platen's frame [mm].
+    cells : (ner, 4) int array
+        Counter-clockwise corner nodes.
+    temperature : (nr,) float array
+        Temperature of the nodes [C].
+    """
 
     points: FloatArray
     cells: IntArray
@@ -201,6 +216,7 @@ class HeatModel:
         self.exchange_tolerance_K = exchange_tolerance_K
         # Only a cache: which matrix a step uses is decided by the state and the load alone.
         self._factors: OrderedDict[tuple[bytes, float], Factorisation] = OrderedDict()
+        self._conductivities: OrderedDict[bytes, FloatArray] = OrderedDict()
         self.factorisations = 0
 
     def initial_state(self) -> HeatState:
@@ -239,7 +255,7 @@ class HeatModel:
         left = self.road.heat_content(state.road.excess) - self.road.heat_content(road.excess)
 
         T, flow, radiated, iterations = state.T, state.flow[load.contact_nodes], 0.0, 0
-        for start, end in zip(track[:-1], track[1:], strict=True):
+        for start, end in pairwise(track):
             T, road, flow, lost, used = self._sub_step(T, road, flow, load, interval, start, end)
             radiated += lost
             iterations += used
@@ -300,15 +316,24 @@ class HeatModel:
     def _conduction_displacement(self, state: HeatState, load: HeatLoad) -> FloatArray:
         """Displacement whose conduction matrix serves the step: an earlier or the new one."""
         reference = state.conduction_displacement
-        change = self.block.conductivity_change(load.displacement, reference)
+        new = self.block.conductivity(load.displacement)
+        change = relative_change(new, self._conductivity(reference))
         return reference if change <= self.reuse_tolerance else load.displacement
+
+    def _conductivity(self, displacement: FloatArray) -> FloatArray:
+        key = displacement.tobytes()
+        if key not in self._conductivities:
+            self._conductivities[key] = self.block.conductivity(displacement)
+            if len(self._conductivities) > CACHED:
+                self._conductivities.popitem(last=False)
+        return self._conductivities[key]
 
     def _factor(self, displacement: FloatArray, dt: float) -> Factorisation:
         key = (displacement.tobytes(), float(f"{dt:.12g}"))
         if key not in self._factors:
             self._factors[key] = self.block.factorise(displacement, dt)
             self.factorisations += 1
-            if len(self._factors) > 3:
+            if len(self._factors) > CACHED:
                 self._factors.popitem(last=False)
         self._factors.move_to_end(key)
         return self._factors[key]

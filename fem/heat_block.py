@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import SuperLU, splu
 from skfem import Basis, ElementQuad1
 
@@ -42,6 +42,20 @@ NODAL_RULE = (
 #: rolled-up edge may be crushed, or for a moment turned over, while the cell keeps its volume;
 #: there the conductivity would grow without limit. The bound leaves it positive and finite.
 SMALLEST_VOLUME_RATIO = 0.05
+
+
+def relative_change(new: FloatArray, old: FloatArray) -> float:
+    """Largest change of a pull-back conductivity relative to its own norm at a point [-].
+
+    Parameters
+    ----------
+    new, old : (3, ne, 4) float array
+        Components XX, YY, XY [N/(s K)].
+    """
+    XX, YY, XY = new - old
+    change = XX**2 + YY**2 + 2.0 * XY**2
+    size = old[0] ** 2 + old[1] ** 2 + 2.0 * old[2] ** 2
+    return float(np.sqrt(np.max(change / size)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,12 +109,13 @@ class BlockConduction:
         self.n = len(mesh.points)
         self.capacity = self._lumped_capacity(basis)
         self._prepare_pattern()
+        self._prepare_gradient()
 
     def _lumped_capacity(self, basis: Basis) -> FloatArray:
         """Heat capacity of each node per mm depth, (n,) [mJ/K]."""
         shares = np.array([np.sum(basis.basis[a][0].value * basis.dx, axis=1) for a in range(4)])
         volume = np.bincount(self.cells.ravel(), weights=shares.T.ravel(), minlength=self.n)
-        return self.rubber.density * self.rubber.specific_heat * volume
+        return np.asarray(self.rubber.heat_capacity * volume, dtype=np.float64)
 
     def _prepare_pattern(self) -> None:
         """Store where each entry of the element matrices goes in the sparse matrix."""
@@ -111,6 +126,19 @@ class BlockConduction:
         self._indptr = np.searchsorted(keys // self.n, np.arange(self.n + 1)).astype(np.int32)
         diagonal = np.arange(self.n, dtype=np.int64) * (self.n + 1)
         self._diagonal = np.searchsorted(keys, diagonal)
+
+    def _prepare_gradient(self) -> None:
+        """Sparse operator from nodal values to their gradient at the points of the rule."""
+        elements, points, _, directions = self.shape_gradients.shape
+        values = self.shape_gradients.transpose(0, 1, 3, 2).reshape(elements, -1)
+        columns = np.tile(self.cells, (1, points * directions))
+        rows = np.repeat(np.arange(elements * points * directions), 4)
+        gradient = csr_matrix(
+            (values.ravel(), (rows, columns.ravel())),
+            shape=(elements * points * directions, self.n),
+        )
+        gradient.eliminate_zeros()
+        self._gradient = gradient
 
     def inverse_deformation(self, displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Adjugate of F (so that F^-1 = adj F / J) and J at the points of the nodal rule.
@@ -124,13 +152,13 @@ class BlockConduction:
         adjugate : (ne, 4, 2, 2) float array [-]
         J : (ne, 4) float array [-], not bounded
         """
-        corners = displacement[self.cells]
-        grad_u = np.matmul(corners.transpose(0, 2, 1)[:, None], self.shape_gradients)
+        grad_u = (self._gradient @ displacement).reshape(len(self.cells), 4, 2, 2)
         adjugate = np.empty_like(grad_u)
+        # grad_u[..., j, i] = du_i/dX_j
         adjugate[..., 0, 0] = 1.0 + grad_u[..., 1, 1]
         adjugate[..., 1, 1] = 1.0 + grad_u[..., 0, 0]
-        adjugate[..., 0, 1] = -grad_u[..., 0, 1]
-        adjugate[..., 1, 0] = -grad_u[..., 1, 0]
+        adjugate[..., 0, 1] = -grad_u[..., 1, 0]
+        adjugate[..., 1, 0] = -grad_u[..., 0, 1]
         J = adjugate[..., 0, 0] * adjugate[..., 1, 1] - adjugate[..., 0, 1] * adjugate[..., 1, 0]
         return adjugate, J
 
@@ -143,13 +171,16 @@ class BlockConduction:
 
         Returns
         -------
-        (ne, 4, 2, 2) float array [N/(s K)]
-            Symmetric and positive for any displacement: J is bounded from below.
+        (3, ne, 4) float array [N/(s K)]
+            Components XX, YY, XY of the tensor. It is symmetric and positive for any
+            displacement, because J is bounded from below.
         """
-        adjugate, J = self.inverse_deformation(displacement)
-        bounded = np.maximum(J, self.smallest_volume_ratio)
-        product = adjugate @ adjugate.swapaxes(-1, -2)
-        return np.asarray(self.rubber.conductivity * product / bounded[..., None, None])
+        A, J = self.inverse_deformation(displacement)
+        scale = self.rubber.conductivity / np.maximum(J, self.smallest_volume_ratio)
+        XX = A[..., 0, 0] ** 2 + A[..., 0, 1] ** 2
+        YY = A[..., 1, 0] ** 2 + A[..., 1, 1] ** 2
+        XY = A[..., 0, 0] * A[..., 1, 0] + A[..., 0, 1] * A[..., 1, 1]
+        return np.array([XX, YY, XY]) * scale
 
     def element_matrices(self, displacement: FloatArray) -> FloatArray:
         """Conduction matrix of each cell, (ne, 4, 4) [N/(s K)] per mm depth."""
@@ -178,12 +209,6 @@ class BlockConduction:
             options={"SymmetricMode": True},
         )
         return Factorisation(displacement=displacement, dt=dt, factor=factor)
-
-    def conductivity_change(self, displacement: FloatArray, reference: FloatArray) -> float:
-        """Largest change of the pull-back relative to its own norm at a point [-]."""
-        old = self.conductivity(reference)
-        change = np.linalg.norm(self.conductivity(displacement) - old, axis=(-1, -2))
-        return float(np.max(change / np.linalg.norm(old, axis=(-1, -2))))
 
     def heat_content(self, T: FloatArray, T_0_C: float) -> float:
         """Heat stored above a reference temperature per mm depth [mJ/mm]."""

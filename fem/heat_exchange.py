@@ -68,7 +68,9 @@ class Passage:
     def distributed(self, heat: FloatArray) -> FloatArray:
         """Heat of the contact nodes (m,) on the road nodes (nc,)."""
         parts = (heat[:, None] * self.shares).ravel()
-        return np.bincount(self.columns.ravel(), weights=parts, minlength=self.count)
+        return np.bincount(self.columns.ravel(), weights=parts, minlength=self.count).astype(
+            np.float64, copy=False
+        )
 
 
 def passage(

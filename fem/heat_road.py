@@ -161,7 +161,7 @@ class RoadConduction:
         self.block_length = block_length
         self.dx = block_length / np.ceil(block_length / grid.column - 1e-9)
         self.depths = grid.layers()
-        self.heat_per_volume = road.density * road.specific_heat
+        self.heat_per_volume = road.heat_capacity
         self._diagonalise_depth()
 
     def _diagonalise_depth(self) -> None:
