@@ -1,0 +1,139 @@
+"""Temperature profile of the bottom surface: highest interior temperature and excess area.
+
+The same two functions serve the simulation and measured profiles, so that both are judged alike.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+#: Share of the bottom's length, at the leading corner, in which a front-edge peak can have its top.
+EDGE_ZONE = 0.2
+#: Share of the bottom's length, from the leading corner, in which its valley is looked for.
+VALLEY_ZONE = 0.4
+#: Share of the profile's span by which temperatures must rise or fall to count as peak or valley;
+#: smaller wiggles are noise (a pyrometer's 0.5-1 K) or discretisation.
+SIGNIFICANT_SHARE = 0.04
+
+
+class InteriorPeak(NamedTuple):
+    """Highest temperatures of the bottom surface.
+
+    Attributes
+    ----------
+    T_max_C : float
+        Highest temperature of the interior, the front-edge peak left out [deg C].
+    T_edge_C : float
+        Highest temperature of the front edge: of its peak, or of the leading corner if there
+        is no such peak [deg C].
+    X_of_peak_mm : float
+        Reference coordinate of the interior maximum [mm].
+    """
+
+    T_max_C: float
+    T_edge_C: float
+    X_of_peak_mm: float
+
+
+def interior_peak(X_mm: ArrayLike, T_C: ArrayLike) -> InteriorPeak:
+    """Find the highest interior temperature of a bottom-surface profile.
+
+    The paper (section 5.2) takes the peak "in the interior of this surface" and does not consider
+    potential peaks at the front edge, without saying where the interior begins. The rule here:
+
+    1. A *front-edge peak* is a highest point of the leading fifth of the profile that stands out
+       from what lies between it and the interior maximum by more than 4 % of the profile's span.
+    2. Going back from its top, the profile falls to a *valley*: the lowest point before it rises
+       by more than 4 % of the span again. The interior is everything behind the valley.
+    3. A peak without a valley in the leading two fifths (it runs out into a plateau, or the
+       profile falls all the way) takes the leading fifth with it: the interior is the rest.
+    4. Without a front-edge peak the interior is the whole surface.
+
+    Parameters
+    ----------
+    X_mm : (n,) array_like
+        Reference coordinate, strictly increasing from the trailing (0) to the leading corner [mm].
+    T_C : (n,) array_like
+        Temperature [deg C].
+
+    Returns
+    -------
+    InteriorPeak
+    """
+    X, T = _profile(X_mm, T_C)
+    from_front = (X[-1] - X) / (X[-1] - X[0])
+    zone = int(np.argmax(from_front <= EDGE_ZONE))
+    significant = SIGNIFICANT_SHARE * float(np.ptp(T))
+    edge = zone + int(np.argmax(T[zone:]))
+    if not _stands_out(T, zone, edge, significant):
+        peak = int(np.argmax(T))
+        return InteriorPeak(float(T[peak]), float(T[-1]), float(X[peak]))
+    start = int(np.argmax(from_front <= VALLEY_ZONE))
+    valley = _valley(T, start, edge, significant)
+    last = max(zone - 1, 0) if valley is None else valley
+    peak = int(np.argmax(T[: last + 1]))
+    return InteriorPeak(float(T[peak]), float(T[edge]), float(X[peak]))
+
+
+def excess_area(X_mm: ArrayLike, T_C: ArrayLike, T_0_C: float) -> float:
+    """Integrate the temperature rise over the bottom surface (A_T of the paper, section 5.2).
+
+    Parameters
+    ----------
+    X_mm : (n,) array_like
+        Reference coordinate, strictly increasing [mm].
+    T_C : (n,) array_like
+        Temperature [deg C].
+    T_0_C : float
+        Temperature before the sliding [deg C].
+
+    Returns
+    -------
+    float
+        Trapezoidal integral of T - T_0 [K mm].
+    """
+    X, T = _profile(X_mm, T_C)
+    return float(np.trapezoid(T - T_0_C, X))
+
+
+def _stands_out(T: FloatArray, zone: int, edge: int, significant: float) -> bool:
+    """Whether the highest point of the edge zone is a peak of its own."""
+    if edge == 0 or np.ptp(T) == 0.0:
+        return False
+    interior = int(np.argmax(T[: max(zone, 1)]))
+    return bool(T[edge] - T[interior : edge + 1].min() > significant)
+
+
+def _valley(T: FloatArray, start: int, edge: int, significant: float) -> int | None:
+    """Index of the lowest point behind the edge peak before the profile rises again."""
+    backwards = T[: edge + 1][::-1]
+    rise = backwards - np.minimum.accumulate(backwards)
+    if not np.any(rise > significant):
+        return None
+    end = int(np.argmax(rise > significant))
+    valley = edge - int(np.argmin(backwards[: end + 1]))
+    return valley if valley >= start else None
+
+
+def _profile(X_mm: ArrayLike, T_C: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    X = np.asarray(X_mm, dtype=float)
+    T = np.asarray(T_C, dtype=float)
+    if X.ndim != 1 or X.shape != T.shape or X.size < 2:
+        raise ValueError(
+            f"a profile needs two columns of the same length, at least 2 points; found X of "
+            f"shape {X.shape} and T of shape {T.shape}"
+        )
+    if not (np.all(np.isfinite(X)) and np.all(np.isfinite(T))):
+        raise ValueError("a profile needs finite coordinates and temperatures; found NaN or inf")
+    if not np.all(np.diff(X) > 0.0):
+        row = int(np.argmin(np.diff(X) > 0.0)) + 1
+        raise ValueError(
+            f"X must increase from the trailing to the leading corner; found {X[row]:g} mm after "
+            f"{X[row - 1]:g} mm"
+        )
+    return X, T
