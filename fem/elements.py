@@ -1,0 +1,298 @@
+"""Q1P0 elements of nearly incompressible rubber in plane strain: residual and tangent.
+
+The isochoric energy is integrated with 2 x 2 points; the volumetric energy K/2 (Jbar - 1)^2 uses
+the mean dilatation ``Jbar = v_e/V_e`` of the element [1]_. The element pressure ``p`` is an
+unknown of its own, condensed on the element and updated with the *linearised* pressure law [2]_:
+the geometric stiffness then does not see the large spurious pressures of an intermediate iterate.
+
+All kernels run over all elements at once. With ``G_a`` the reference gradients of the shape
+functions, the material tangent is ``L^T M L`` of the row vectors ``F_i1 G_a1``, ``F_i2 G_a2``,
+``F_i1 G_a2 + F_i2 G_a1`` and ``(cof F) G_a``, because every energy depends on (I1, J) only and the
+viscous term on the Green-Lagrange strain.
+
+References
+----------
+.. [1] Simo, J. C., Taylor, R. L., Pister, K. S., Comput. Methods Appl. Mech. Eng. 51 (1985)
+   177-208.
+.. [2] Simo, J. C., Taylor, R. L., Comput. Methods Appl. Mech. Eng. 85 (1991) 273-310.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from skfem import Basis, ElementQuad1, ElementVector
+
+from fem.mesh import BlockMesh
+from materials.hyperelastic import Hyperelastic
+from materials.plane_strain import cauchy_stress
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kinematics:
+    """Deformation gradient at the Gauss points, components (ne, 4), and cell volume ratio."""
+
+    F11: FloatArray
+    F12: FloatArray
+    F21: FloatArray
+    F22: FloatArray
+    Jbar: FloatArray
+
+    @cached_property
+    def J(self) -> FloatArray:
+        """Determinant of F at the Gauss points, (ne, 4) [-]."""
+        return self.F11 * self.F22 - self.F12 * self.F21
+
+    @cached_property
+    def I1(self) -> FloatArray:
+        """First invariant F:F + 1, (ne, 4) [-]."""
+        return self.F11**2 + self.F12**2 + self.F21**2 + self.F22**2 + 1.0
+
+    @cached_property
+    def green_lagrange(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Green-Lagrange strains E11, E22, E12, each (ne, 4) [-]."""
+        return (
+            0.5 * (self.F11**2 + self.F21**2 - 1.0),
+            0.5 * (self.F12**2 + self.F22**2 - 1.0),
+            0.5 * (self.F11 * self.F12 + self.F21 * self.F22),
+        )
+
+    @property
+    def matrix(self) -> FloatArray:
+        """F as (ne, 4, 2, 2)."""
+        rows = [np.stack([self.F11, self.F12], -1), np.stack([self.F21, self.F22], -1)]
+        return np.stack(rows, axis=-2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Viscosity:
+    """Kelvin-Voigt term of one time step: ``S = eta (E - E_n)/dt``.
+
+    Attributes
+    ----------
+    rate : float
+        eta/dt [N/mm^2].
+    strain_n : tuple of (ne, 4) arrays
+        E11, E22, E12 at the last accepted step.
+    """
+
+    rate: float
+    strain_n: tuple[FloatArray, FloatArray, FloatArray]
+
+    def stress(self, kinematics: Kinematics) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Viscous second Piola-Kirchhoff stresses S11, S22, S12 [N/mm^2]."""
+        pairs = zip(kinematics.green_lagrange, self.strain_n, strict=True)
+        S11, S22, S12 = (self.rate * (E - E_n) for E, E_n in pairs)
+        return S11, S22, S12
+
+
+@dataclass(frozen=True, kw_only=True)
+class ElementForces:
+    """Nodal forces of the elements and what the tangent reuses.
+
+    Attributes
+    ----------
+    residual : (ne, 8) float array
+        Internal forces of each element, dofs (node, component) interleaved [N/mm].
+    pressure_residual : (ne,) float array
+        ``U'(Jbar) - p`` [N/mm^2].
+    """
+
+    residual: FloatArray
+    pressure_residual: FloatArray
+    kinematics: Kinematics
+    area_gradient: FloatArray
+    pressure: FloatArray
+
+
+class Q1P0Elements:
+    """Vectorised Q1P0 kernel on one mesh and one material.
+
+    Parameters
+    ----------
+    mesh : BlockMesh
+        Reference mesh.
+    model : Hyperelastic
+        Isochoric energy.
+    K_bulk : float
+        Bulk modulus [N/mm^2].
+    """
+
+    def __init__(self, mesh: BlockMesh, model: Hyperelastic, K_bulk: float) -> None:
+        self.mesh, self.model, self.K_bulk = mesh, model, K_bulk
+        self.basis = Basis(mesh.mesh, ElementVector(ElementQuad1()), intorder=3)
+        scalar = self.basis.with_element(ElementQuad1())
+        gradients = np.stack([scalar.basis[a][0].grad for a in range(4)])  # (a, I, ne, q)
+        self.weights = np.ascontiguousarray(scalar.dx)
+        self.G = np.ascontiguousarray(gradients.transpose(2, 3, 0, 1))  # (ne, q, a, I)
+        self._G_flat = np.ascontiguousarray(gradients.transpose(2, 0, 3, 1)).reshape(-1, 4, 8)
+        self.volume = self.weights.sum(axis=1)
+        self.cells = mesh.cells
+        self._X = mesh.points[mesh.cells]
+
+    @property
+    def dofs(self) -> IntArray:
+        """Global dofs (2 node + component) of the elements, (ne, 8)."""
+        return (2 * self.cells[:, :, None] + np.arange(2)).reshape(-1, 8)
+
+    def kinematics(self, u: FloatArray) -> Kinematics:
+        """Deformation of the nodal displacements `u` (n, 2) [mm]."""
+        u_e = u[self.cells]
+        H = np.matmul(u_e.transpose(0, 2, 1), self._G_flat)  # (ne, i, (q, I))
+        H = H.reshape(-1, 2, 4, 2)
+        b = area_gradient(self._X + u_e)
+        area = 0.5 * np.einsum("eai,eai->e", b, self._X + u_e)
+        return Kinematics(
+            F11=1.0 + H[:, 0, :, 0],
+            F12=H[:, 0, :, 1].copy(),
+            F21=H[:, 1, :, 0].copy(),
+            F22=1.0 + H[:, 1, :, 1],
+            Jbar=area / self.volume,
+        )
+
+    def admissible(self, kinematics: Kinematics) -> bool:
+        """Whether the energy exists at every Gauss point."""
+        return bool(self.model.admissible(kinematics.I1, kinematics.J).all())
+
+    def forces(
+        self, u: FloatArray, p: FloatArray, kin: Kinematics, viscosity: Viscosity | None = None
+    ) -> ElementForces:
+        """Internal nodal forces at displacement `u` (n, 2) and element pressures `p` (ne,)."""
+        d = self.model.derivatives(kin.I1, kin.J)
+        w = self.weights
+        A11, A22, A12 = 2.0 * w * d.W_1, 2.0 * w * d.W_1, np.zeros_like(w)
+        if viscosity is not None:
+            S11, S22, S12 = viscosity.stress(kin)
+            A11, A22, A12 = A11 + w * S11, A22 + w * S22, w * S12
+        c = w * d.W_J
+        # P w, as rows of F (2 W_1 I + S) + W_J cof F
+        P = np.empty((kin.J.shape[0], 4, 2, 2))
+        P[..., 0, 0] = kin.F11 * A11 + kin.F12 * A12 + c * kin.F22
+        P[..., 0, 1] = kin.F11 * A12 + kin.F12 * A22 - c * kin.F21
+        P[..., 1, 0] = kin.F21 * A11 + kin.F22 * A12 - c * kin.F12
+        P[..., 1, 1] = kin.F21 * A12 + kin.F22 * A22 + c * kin.F11
+        P_flat = P.transpose(0, 1, 3, 2).reshape(-1, 8, 2)
+        residual = np.matmul(self._G_flat, P_flat).reshape(-1, 8)
+        b = area_gradient(self._X + u[self.cells]).reshape(-1, 8)
+        dU_dJ = self.K_bulk * (kin.Jbar - 1.0)
+        return ElementForces(
+            residual=residual + dU_dJ[:, None] * b,
+            pressure_residual=dU_dJ - p,
+            kinematics=kin,
+            area_gradient=b,
+            pressure=p,
+        )
+
+    def tangent(self, forces: ElementForces, viscosity: Viscosity | None = None) -> FloatArray:
+        """Element tangents with the condensed pressure, (ne, 8, 8) [N/mm^2]."""
+        kin, G, w = forces.kinematics, self.G, self.weights
+        d = self.model.derivatives(kin.I1, kin.J)
+        L, ML = self._material_rows(kin, d.W_11, d.W_1J, d.W_JJ, viscosity)
+        b = forces.area_gradient
+        ne = b.shape[0]
+        L = np.concatenate([L.reshape(ne, -1, 8), b[:, None, :]], axis=1)
+        scaled = b * (self.K_bulk / self.volume)[:, None]
+        ML = np.concatenate([ML.reshape(ne, -1, 8), scaled[:, None, :]], axis=1)
+        K = np.matmul(L.transpose(0, 2, 1), ML).reshape(ne, 4, 2, 4, 2)
+        # geometric part: G_a (2 W_1 I + S) G_b on the diagonal, W_J (G_a x G_b) off it
+        A11 = A22 = 2.0 * w * d.W_1
+        A12 = None
+        if viscosity is not None:
+            S11, S22, S12 = viscosity.stress(kin)
+            A11, A22, A12 = A11 + w * S11, A22 + w * S22, w * S12
+        AG = np.empty_like(G)
+        AG[..., 0] = A11[..., None] * G[..., 0]
+        AG[..., 1] = A22[..., None] * G[..., 1]
+        if A12 is not None:
+            AG[..., 0] += A12[..., None] * G[..., 1]
+            AG[..., 1] += A12[..., None] * G[..., 0]
+        direct = np.matmul(self._G_flat, AG.transpose(0, 1, 3, 2).reshape(ne, 8, 4))
+        c = (w * d.W_J)[..., None]
+        turned = np.stack([c * G[..., 1], -c * G[..., 0]], axis=2).reshape(ne, 8, 4)
+        cross = np.matmul(self._G_flat, turned)
+        cross += forces.pressure[:, None, None] * AREA_HESSIAN
+        K[:, :, 0, :, 0] += direct
+        K[:, :, 1, :, 1] += direct
+        K[:, :, 0, :, 1] += cross
+        K[:, :, 1, :, 0] -= cross
+        return K.reshape(ne, 8, 8)
+
+    def _material_rows(
+        self,
+        kin: Kinematics,
+        W_11: FloatArray,
+        W_1J: FloatArray,
+        W_JJ: FloatArray,
+        viscosity: Viscosity | None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Rows L (ne, q, m, 8) and M L of the material part; m = 2 elastic, + 3 viscous."""
+        G1, G2 = self.G[..., 0], self.G[..., 1]
+        F11, F12 = kin.F11[..., None], kin.F12[..., None]
+        F21, F22 = kin.F21[..., None], kin.F22[..., None]
+        m = 2 if viscosity is None else 5
+        L = np.empty((*kin.J.shape, m, 4, 2))
+        ML = np.empty_like(L)
+        L[..., 0, :, 0] = F11 * G1 + F12 * G2
+        L[..., 0, :, 1] = F21 * G1 + F22 * G2
+        L[..., 1, :, 0] = F22 * G1 - F21 * G2
+        L[..., 1, :, 1] = F11 * G2 - F12 * G1
+        w = self.weights
+        a, s, j = ((w * x)[..., None, None] for x in (4.0 * W_11, 2.0 * W_1J, W_JJ))
+        ML[..., 0, :, :] = a * L[..., 0, :, :] + s * L[..., 1, :, :]
+        ML[..., 1, :, :] = s * L[..., 0, :, :] + j * L[..., 1, :, :]
+        if viscosity is not None:
+            L[..., 2, :, 0], L[..., 2, :, 1] = F11 * G1, F21 * G1
+            L[..., 3, :, 0], L[..., 3, :, 1] = F12 * G2, F22 * G2
+            L[..., 4, :, 0], L[..., 4, :, 1] = F11 * G2 + F12 * G1, F21 * G2 + F22 * G1
+            rate = (viscosity.rate * w)[..., None, None, None] * VISCOUS_WEIGHTS
+            ML[..., 2:, :, :] = rate * L[..., 2:, :, :]
+        return L, ML
+
+    def pressure_increment(self, forces: ElementForces, du: FloatArray) -> FloatArray:
+        """Change of the element pressures with `du` (n, 2) by the linearised pressure law."""
+        du_e = du[self.cells].reshape(-1, 8)
+        growth = np.einsum("ej,ej->e", forces.area_gradient, du_e)
+        return self.K_bulk / self.volume * growth + forces.pressure_residual
+
+    def strain_energy(self, kin: Kinematics) -> float:
+        """Stored energy per depth [mJ/mm]."""
+        W = self.model.derivatives(kin.I1, kin.J).W
+        volumetric = 0.5 * self.K_bulk * (kin.Jbar - 1.0) ** 2
+        return float(np.sum(self.weights * W) + np.sum(self.volume * volumetric))
+
+    def cauchy(self, kin: Kinematics) -> FloatArray:
+        """Volume-averaged Cauchy stresses xx, yy, zz, xy of the cells, (ne, 4) [N/mm^2]."""
+        pressure = (self.K_bulk * (kin.Jbar - 1.0))[:, None]
+        sigma = cauchy_stress(self.model, kin.matrix, pressure)
+        share = self.weights / self.volume[:, None]
+        return np.asarray(np.einsum("eqc,eq->ec", sigma, share))
+
+    def largest_stretch(self, kin: Kinematics) -> FloatArray:
+        """Largest principal stretch in the plane, mean of the Gauss points, (ne,) [-]."""
+        half_sum = 0.5 * (kin.I1 - 1.0)
+        root = np.sqrt(np.maximum(half_sum**2 - kin.J**2, 0.0))
+        share = self.weights / self.volume[:, None]
+        return np.asarray(np.sum(share * np.sqrt(half_sum + root), axis=1))
+
+
+#: S12 acts on 2 E12, and dE12 is half the third row.
+VISCOUS_WEIGHTS = np.array([1.0, 1.0, 0.5])[:, None, None]
+
+#: d2A/dx_a dy_b of the area of a quadrilateral: constant, since the area is bilinear in (x, y).
+AREA_HESSIAN = 0.5 * (np.roll(np.eye(4), 1, axis=1) - np.roll(np.eye(4), -1, axis=1))
+
+
+def area_gradient(x: FloatArray) -> FloatArray:
+    """Gradient of the area of quadrilaterals with corners `x` (ne, 4, 2), same shape [mm]."""
+    # Written out, because np.roll copies cost as much as the rest.
+    b = np.empty_like(x)
+    after, before = [1, 2, 3, 0], [3, 0, 1, 2]
+    b[..., 0] = 0.5 * (x[:, after, 1] - x[:, before, 1])
+    b[..., 1] = 0.5 * (x[:, before, 0] - x[:, after, 0])
+    return b

@@ -1,0 +1,99 @@
+"""Direct solution of the sparse linear systems: SuperLU in symmetric mode, checked, with fallback.
+
+Quadrilateral meshes give matrices of symmetric pattern. SuperLU's symmetric mode (ordering of
+A^T + A, preference for diagonal pivots) then needs about half the time of its default column
+ordering [1]_. Small pivots can spoil that factorisation, so each solution is checked; where it
+fails, the system is solved again with COLAMD and partial pivoting.
+
+References
+----------
+.. [1] Li, X. S., "An overview of SuperLU", ACM Trans. Math. Software 31 (2005) 302-325.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+SYMMETRIC = {"diag_pivot_thresh": 0.001, "options": {"SymmetricMode": True}}
+
+
+class SingularSystemError(ArithmeticError):
+    """The matrix has no usable factorisation (singular, or not finite)."""
+
+
+class LinearSolver(Protocol):
+    """Solves systems that share one sparsity pattern; counts its work."""
+
+    factorisations: int
+    seconds: float
+
+    def solve(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray:
+        """Solution of ``matrix x = rhs``; raises `SingularSystemError`."""
+        ...
+
+
+@dataclass
+class SuperLUSolver:
+    """SuperLU on a matrix whose equations are already numbered in a fill-reducing order.
+
+    Attributes
+    ----------
+    relative_residual : float
+        Largest accepted ``|A x - b| / |b|`` of the symmetric mode (one step of iterative
+        refinement is tried first).
+    factorisations, fallbacks : int
+        Counts of all factorisations, and of those with COLAMD.
+    seconds : float
+        Time spent in factorisations and solves.
+    """
+
+    relative_residual: float = 1e-8
+    factorisations: int = field(default=0, init=False)
+    fallbacks: int = field(default=0, init=False)
+    seconds: float = field(default=0.0, init=False)
+
+    def solve(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray:
+        """Solution of ``matrix x = rhs``; raises `SingularSystemError`."""
+        start = time.perf_counter()
+        try:
+            return self._checked(matrix, rhs)
+        finally:
+            self.seconds += time.perf_counter() - start
+
+    def _checked(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray:
+        if not (np.isfinite(matrix.data).all() and np.isfinite(rhs).all()):
+            raise SingularSystemError("the linear system holds values that are not finite")
+        bound = self.relative_residual * np.abs(rhs).max(initial=0.0)
+        for ordering, options in (("NATURAL", SYMMETRIC), ("COLAMD", {})):
+            self.factorisations += 1
+            self.fallbacks += ordering == "COLAMD"
+            try:
+                factors = splu(matrix, permc_spec=ordering, **options)
+            except RuntimeError:
+                continue
+            x = factors.solve(rhs)
+            residual = rhs - matrix @ x
+            if not np.abs(residual).max(initial=0.0) <= bound:
+                x = x + factors.solve(residual)
+                residual = rhs - matrix @ x
+            if np.abs(residual).max(initial=0.0) <= bound:
+                return np.asarray(x)
+        raise SingularSystemError("the linear system is singular to working precision")
+
+
+def fill_reducing_order(matrix: csc_matrix) -> IntArray:
+    """Equation order of minimum degree on A^T + A; entry k is the equation that comes k-th."""
+    factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", **SYMMETRIC)
+    order = np.empty(matrix.shape[0], dtype=np.int64)
+    order[factors.perm_c] = np.arange(matrix.shape[0])
+    return order
