@@ -20,6 +20,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from fem.case import Case
 from fem.heat_block import BlockConduction, Factorisation, relative_change
 from fem.heat_exchange import Passage, passage, solve_exchange
 from fem.heat_road import RoadConduction, RoadGrid, RoadState
@@ -218,6 +219,20 @@ class HeatModel:
         self._factors: OrderedDict[tuple[bytes, float], Factorisation] = OrderedDict()
         self._conductivities: OrderedDict[bytes, FloatArray] = OrderedDict()
         self.factorisations = 0
+
+    @classmethod
+    def from_case(cls, case: Case, mesh: BlockMesh) -> HeatModel:
+        """Heat model of a case on its mesh."""
+        duration = case.loading.distance_mm / abs(case.loading.velocity_mm_per_s)
+        return cls(
+            mesh,
+            case.rubber.thermal,
+            case.road.thermal,
+            emissivity=case.heat.emissivity,
+            ambient_C=case.heat.ambient_C,
+            heat_step_mm=case.solver.heat_step_mm * case.solver.steps_scale,
+            road_grid=RoadGrid.for_duration(case.road.thermal, duration),
+        )
 
     def initial_state(self) -> HeatState:
         """Block and road at the ambient temperature."""

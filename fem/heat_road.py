@@ -70,6 +70,12 @@ class RoadGrid:
         if self.behind < 0.0:
             raise ValueError(f"road grid: behind = {self.behind}, expected at least 0")
 
+    @classmethod
+    def for_duration(cls, road: ThermalProperties, duration: float) -> RoadGrid:
+        """Default grid, at least five diffusion lengths sqrt(alpha t) of the event [s] deep."""
+        depth = 5.0 * float(np.sqrt(road.diffusivity * duration))
+        return cls(depth=max(depth, 5.0))
+
     def layers(self) -> FloatArray:
         """Depth of the node rows below the surface, (nd,) [mm], from 0 to `depth`."""
         sizes = [self.surface_layer]
