@@ -139,7 +139,7 @@ class Case(Section):
 
     def to_toml(self, heading: str = "Resolved case: every key as it is used.") -> str:
         """Return the resolved case as TOML with a comment of meaning and unit at each key."""
-        lines = [f"# {line}" for line in heading.splitlines()]
+        lines = [f"# {line}".rstrip() for line in heading.splitlines()]
         for name in ("block", "rubber", "road", "friction", "heat", "loading", "solver", "output"):
             lines += ["", *section_lines(name, getattr(self, name))]
         return "\n".join(lines) + "\n"

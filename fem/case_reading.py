@@ -62,7 +62,7 @@ def read_toml(path: Path, *, named_by: tuple[str, str] | None = None) -> Table:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        _raise(str(path), "syntax", str(error), "TOML")
+        _raise(str(path), "syntax", f"text that is not TOML: {error}", "TOML")
     except RecursionError:
         _raise(str(path), "syntax", "tables nested too deeply", "TOML")
 

@@ -1,0 +1,271 @@
+"""The command line of treadfem: parses, calls, prints.
+
+Exit codes: 0 done; 2 bad input (one line on stderr, nothing written); 3 did not converge (what was
+accepted is written); 130 interrupted (what was accepted is written).
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import os
+import signal
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from fem.case import Case
+from fem.case_errors import CaseError
+from fem.case_reading import parse_override
+from fem.template import case_template
+
+DONE, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 0, 2, 3, 130
+_STATUS_CODES = {"ok": DONE, "interrupted": INTERRUPTED}
+
+# The commands import simulation, calibration and figures when they run: `check`, `template` and
+# `--help` then answer at once instead of after the second that scipy and matplotlib take to load.
+
+
+class _Parser(argparse.ArgumentParser):
+    """Argument parser that complains in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(BAD_INPUT, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    try:
+        arguments = _parser(words[0] if words else "").parse_args(words)
+        return int(arguments.command(arguments))
+    except CaseError as error:
+        print(f"treadfem: {error}", file=sys.stderr)
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        print("treadfem: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader (`| head`) has gone; without this the interpreter complains once more at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+
+
+def _parser(command: str) -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="treadfem", description="Sliding rubber tread block with friction and heat."
+    )
+    parser.add_argument("--version", action="version", version=f"treadfem {_version()}")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    _add_run(commands)
+    _add_check(commands)
+    _add_template(commands)
+    _add_figure(commands)
+    return parser
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("treadfem")
+    except PackageNotFoundError:
+        return "(not installed)"
+
+
+def _add_case_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("case", metavar="CASE.toml", help="case file")
+    parser.add_argument(
+        "--set",
+        metavar="section.key=value",
+        action="append",
+        default=[],
+        dest="overrides",
+        help="set a key of the case; may be repeated",
+    )
+
+
+def _load(arguments: argparse.Namespace) -> Case:
+    overrides = dict(parse_override(text) for text in arguments.overrides)
+    case = Case.from_toml(arguments.case, overrides)
+    if case.solver.linear_solver == "pardiso" and importlib.util.find_spec("pypardiso") is None:
+        raise CaseError(
+            file=case.source,
+            key="solver.linear_solver",
+            found='"pardiso" without the package pypardiso',
+            expected='"auto" or "superlu", or treadfem installed with the extra "fast"',
+        )
+    return case
+
+
+# -- run ---------------------------------------------------------------------------------------
+
+
+def _add_run(commands: Any) -> None:
+    parser = commands.add_parser("run", help="simulate a case", description="Simulate a case.")
+    _add_case_arguments(parser)
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="folder of the results (default: results/CASE)"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.set_defaults(command=_run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    case = _load(arguments)
+    directory = Path(arguments.output or Path("results") / Path(arguments.case).stem)
+    _check_writable(directory)
+
+    from fem.simulate import simulate
+
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with _Progress(case, quiet=arguments.quiet) as progress:
+        result = simulate(case, progress=progress)
+    result.write(directory)
+    if case.output.figures:
+        from validation.run_figures import write_run_figures
+
+        write_run_figures(directory)
+    return _close(result.summary, directory, quiet=arguments.quiet)
+
+
+def _check_writable(directory: Path) -> None:
+    """Refuse an output folder that cannot be made, before hours are spent on filling it."""
+    existing = directory.absolute()
+    while not existing.exists() and existing != existing.parent:
+        existing = existing.parent
+    if existing.is_dir() and os.access(existing, os.W_OK | os.X_OK):
+        return
+    reason = "a folder without permission to write" if existing.is_dir() else "a file"
+    raise CaseError(
+        file=str(directory), key="-o", found=f"{existing}: {reason}", expected="a writable folder"
+    )
+
+
+class _Progress:
+    """Shows how far the simulation is: a bar on a terminal, a line per tenth elsewhere."""
+
+    def __init__(self, case: Case, *, quiet: bool) -> None:
+        self.distance = case.loading.distance_mm
+        self.quiet = quiet
+        self.tenths = 0
+        self.bar: Any = None
+
+    def __enter__(self) -> _Progress:
+        if not self.quiet and sys.stderr.isatty():
+            from tqdm import tqdm
+
+            self.bar = tqdm(total=self.distance, unit="mm", bar_format=_BAR, leave=False)
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        if self.bar is not None:
+            self.bar.close()
+
+    def __call__(self, state: Any) -> None:
+        done = min(abs(state.sliding_distance_mm), self.distance)
+        if self.bar is not None:
+            self.bar.set_postfix_str(f"T_max {state.T_max_C:.1f} C", refresh=False)
+            self.bar.update(done - self.bar.n)
+        elif not self.quiet and int(10.0 * done / self.distance + 1e-9) > self.tenths:
+            self.tenths = int(10.0 * done / self.distance + 1e-9)
+            print(f"{10 * self.tenths:4d} %  {done:8.2f} mm  T_max {state.T_max_C:6.2f} C")
+            sys.stdout.flush()
+
+
+_BAR = "{percentage:3.0f} %|{bar}| {n:.1f}/{total:g} mm [{elapsed}<{remaining}]{postfix}"
+
+
+def _close(summary: dict[str, Any], directory: Path, *, quiet: bool) -> int:
+    status = str(summary.get("status", "not converged"))
+    code = _STATUS_CODES.get(status, NOT_CONVERGED)
+    if not quiet:
+        print(_summary_table(summary))
+        print(f"results in {directory}")
+    if code != DONE:
+        advice = [str(summary[key]) for key in ("reason", "advice") if summary.get(key)]
+        text = ": ".join([f"treadfem: {status}", "; ".join(advice)] if advice else [status])
+        print(" ".join(text.split()), file=sys.stderr)
+    return code
+
+
+def _summary_table(summary: dict[str, Any]) -> str:
+    width = max(map(len, summary), default=0)
+    return "\n".join(f"  {key:<{width}}  {_shown(value)}" for key, value in summary.items())
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+# -- check, template ---------------------------------------------------------------------------
+
+
+def _add_check(commands: Any) -> None:
+    parser = commands.add_parser(
+        "check",
+        help="check a case and print it resolved",
+        description="Check a case file and print it with every key as it would be used.",
+    )
+    _add_case_arguments(parser)
+    parser.set_defaults(command=_check)
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    case = _load(arguments)
+    sys.stdout.write(case.to_toml(f"{arguments.case}, every key as it is used."))
+    return DONE
+
+
+def _add_template(commands: Any) -> None:
+    parser = commands.add_parser(
+        "template",
+        help="print a commented file to start from",
+        description="Print a commented case file that runs as it is.",
+    )
+    parser.add_argument("kind", nargs="?", choices=["case"], default="case")
+    parser.set_defaults(command=_template)
+
+
+def _template(arguments: argparse.Namespace) -> int:
+    sys.stdout.write(case_template())
+    return DONE
+
+
+# -- figure ------------------------------------------------------------------------------------
+
+
+def _add_figure(commands: Any) -> None:
+    parser = commands.add_parser(
+        "figure", help="make a figure of the paper", description="Make a figure of the paper."
+    )
+    parser.add_argument("number", metavar="N|all", help="number of the figure, or all")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", default="results/figures", help="folder of the pictures"
+    )
+    parser.set_defaults(command=_figure)
+
+
+def _figure(arguments: argparse.Namespace) -> int:
+    from validation.figures import FIGURES, make_figure
+
+    numbers = sorted(FIGURES)
+    if arguments.number != "all":
+        numbers = [number for number in numbers if str(number) == arguments.number]
+    if not numbers:
+        raise CaseError(
+            file="figure",
+            key="N",
+            found=repr(arguments.number),
+            expected="one of " + ", ".join(map(str, sorted(FIGURES))) + " or all",
+        )
+    directory = Path(arguments.output)
+    _check_writable(directory)
+    for number in numbers:
+        print(make_figure(number, directory))
+    return DONE
+
+
+if __name__ == "__main__":
+    sys.exit(main())
