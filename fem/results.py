@@ -1,0 +1,188 @@
+"""The result of a run: tables, summary and snapshots, written to and read from a folder."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fem.atomic_files import staged_directory
+from fem.case import Case
+from fem.columns import HISTORY, SUMMARY, SURFACE, in_order
+from fem.snapshot import BlockGeometry, Snapshot
+from fem.vtu import read_fields, write_fields
+
+CASE_FILE = "case.toml"
+LOG_FILE = "run.log"
+HISTORY_FILE = "history.csv"
+SURFACE_FILE = "surface.csv"
+SUMMARY_JSON = "summary.json"
+SUMMARY_CSV = "summary.csv"
+FIELD_FILES = ("block_*.vtu", "road_*.vtu", "block.pvd", "road.pvd")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Result:
+    """What a simulation returns.
+
+    Attributes
+    ----------
+    case : Case
+        The resolved case.
+    history : DataFrame
+        One row per accepted step, columns of `fem.columns.HISTORY`.
+    surface : DataFrame
+        The bottom surface at the end, columns of `fem.columns.SURFACE`.
+    summary : dict
+        The keys of `fem.columns.SUMMARY`, and a reason where the status is not "ok".
+    geometry : BlockGeometry
+        Reference mesh of the block.
+    snapshots : list of Snapshot
+        Fields at the recorded steps, the last one at the end of the run.
+    log : tuple of str
+        Lines of the run's log.
+    """
+
+    case: Case
+    history: pd.DataFrame
+    surface: pd.DataFrame
+    summary: dict[str, Any]
+    geometry: BlockGeometry
+    snapshots: list[Snapshot] = field(default_factory=list)
+    log: tuple[str, ...] = ()
+
+    @classmethod
+    def from_rows(
+        cls,
+        case: Case,
+        geometry: BlockGeometry,
+        rows: Sequence[Mapping[str, Any]],
+        surface: pd.DataFrame | Mapping[str, Any],
+        summary: Mapping[str, Any],
+        snapshots: Sequence[Snapshot],
+        log: Sequence[str] = (),
+    ) -> Result:
+        """Build a result from what the recorder collected.
+
+        Parameters
+        ----------
+        rows : sequence of mappings
+            One per accepted step, with at least the keys of `fem.columns.HISTORY`.
+        surface : DataFrame or mapping of columns
+            At least the columns of `fem.columns.SURFACE`.
+        summary : mapping
+            At least the keys of `fem.columns.SUMMARY`.
+
+        Raises
+        ------
+        ValueError
+            If a column is missing or a snapshot does not fit the mesh.
+        """
+        for snapshot in snapshots:
+            snapshot.check(geometry)
+        return cls(
+            case=case,
+            history=_table(pd.DataFrame(list(rows)), HISTORY, "history"),
+            surface=_table(pd.DataFrame(surface), SURFACE, "surface"),
+            summary={key: summary[key] for key in in_order(list(summary), SUMMARY, "summary")},
+            geometry=geometry,
+            snapshots=list(snapshots),
+            log=tuple(log),
+        )
+
+    def write(self, directory: str | Path) -> None:
+        """Write case, log, tables, summary and (if the case asks for them) field files.
+
+        Everything is written into a temporary folder first; see `staged_directory`.
+        """
+        outdated = FIELD_FILES
+        with staged_directory(directory, outdated=outdated, last=SUMMARY_JSON) as stage:
+            (stage / CASE_FILE).write_text(self.case.to_toml(), encoding="utf-8")
+            (stage / LOG_FILE).write_text("".join(f"{x}\n" for x in self.log), encoding="utf-8")
+            self.history.to_csv(stage / HISTORY_FILE, index=False, lineterminator="\n")
+            self.surface.to_csv(stage / SURFACE_FILE, index=False, lineterminator="\n")
+            write_summary(stage, self.summary)
+            if self.case.output.vtu and self.snapshots:
+                write_fields(stage, self.geometry, self.snapshots)
+
+    @classmethod
+    def read(cls, directory: str | Path) -> Result:
+        """Read a folder that `write` made; it needs its field files.
+
+        Raises
+        ------
+        ValueError
+            If a file is missing or unreadable, naming it.
+        """
+        directory = Path(directory)
+        geometry, snapshots = read_fields(directory)
+        return cls(
+            case=Case.from_toml(_existing(directory / CASE_FILE)),
+            history=read_table(directory / HISTORY_FILE, HISTORY),
+            surface=read_table(directory / SURFACE_FILE, SURFACE),
+            summary=read_summary(directory),
+            geometry=geometry,
+            snapshots=snapshots,
+            log=tuple(_existing(directory / LOG_FILE).read_text(encoding="utf-8").splitlines()),
+        )
+
+
+def write_summary(directory: str | Path, summary: Mapping[str, Any]) -> None:
+    """Write `summary.json` and the same as the one row of `summary.csv`."""
+    directory = Path(directory)
+    clean = {key: plain(value) for key, value in summary.items()}
+    text = json.dumps(clean, indent=2, allow_nan=False, ensure_ascii=False)
+    pd.DataFrame([clean]).to_csv(directory / SUMMARY_CSV, index=False, lineterminator="\n")
+    (directory / SUMMARY_JSON).write_text(text + "\n", encoding="utf-8")
+
+
+def read_summary(directory: str | Path) -> dict[str, Any]:
+    """Read `summary.json`; a value that could not be computed is None."""
+    path = _existing(Path(directory) / SUMMARY_JSON)
+    try:
+        summary = json.loads(path.read_text(encoding="utf-8"))
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path} is not JSON ({error})") from None
+    in_order(list(summary), SUMMARY, str(path))
+    return dict(summary)
+
+
+def read_table(path: str | Path, required: tuple[str, ...]) -> pd.DataFrame:
+    """Read a result table and check that its columns are there."""
+    path = _existing(Path(path))
+    try:
+        table = pd.read_csv(path)
+    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path} is not a table ({error})") from None
+    return _table(table, required, str(path))
+
+
+def plain(value: Any) -> Any:
+    """Turn numpy numbers into Python's and what is not finite into None, which JSON can hold."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [plain(item) for item in value]
+    return value
+
+
+def _table(table: pd.DataFrame, required: tuple[str, ...], name: str) -> pd.DataFrame:
+    if table.empty and not len(table.columns):
+        return pd.DataFrame(columns=list(required))
+    return table[in_order([str(column) for column in table.columns], required, name)]
+
+
+def _existing(path: Path) -> Path:
+    if not path.is_file():
+        raise ValueError(f"{path} is missing; expected a folder that a finished run wrote")
+    return path
