@@ -38,8 +38,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
     try:
-        arguments = _parser(words[0] if words else "").parse_args(words)
-        return int(arguments.command(arguments))
+        arguments = _parser().parse_args(words)
+        code = int(arguments.command(arguments))
+        sys.stdout.flush()
+        return code
     except CaseError as error:
         print(f"treadfem: {error}", file=sys.stderr)
         return BAD_INPUT
@@ -52,7 +54,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return DONE
 
 
-def _parser(command: str) -> argparse.ArgumentParser:
+def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="treadfem", description="Sliding rubber tread block with friction and heat."
     )

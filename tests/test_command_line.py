@@ -1,0 +1,258 @@
+"""The command line: exit codes, one-line errors, nothing written on bad input, what is printed."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+
+import pytest
+
+import treadfem
+from fem.case import Case
+from tests.wrong_cases import LOADING, SET_SYNTAX, WRONG_CASES, WrongCase
+
+ROOT = Path(__file__).parents[1]
+
+
+def contents(folder: Path) -> dict[str, bytes | None]:
+    """Every file and folder below `folder` with its content."""
+    return {
+        str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None
+        for path in folder.rglob("*")
+    }
+
+
+def command(*words: str | Path) -> int:
+    """Run the command line as the console script does."""
+    try:
+        return treadfem.main([str(word) for word in words])
+    except SystemExit as stop:
+        return int(stop.code or 0)
+
+
+@pytest.fixture
+def case_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "case.toml"
+    path.write_text(LOADING + "[output]\nfigures = false\n")
+    return path
+
+
+class StubSimulation:
+    """Stands in for the simulation: reports two steps and ends as it is told to."""
+
+    def __init__(self, status: str = "ok", **summary: object) -> None:
+        self.summary = {"status": status, "T_max_C": 41.25, "steps": 2, **summary}
+        self.cases: list[Case] = []
+
+    def simulate(self, case, *, progress=None):
+        self.cases.append(case)
+        for share in (0.5, 1.0):
+            if progress is not None:
+                distance = share * case.loading.distance_mm
+                progress(SimpleNamespace(sliding_distance_mm=distance, T_max_C=30.0))
+        return self
+
+    def write(self, directory):
+        directory = Path(directory)
+        directory.mkdir(parents=True)
+        (directory / "summary.json").write_text(json.dumps(self.summary))
+
+
+@pytest.fixture
+def stub(monkeypatch):
+    """Replace the simulation; returns a function that sets the stub in place."""
+
+    def install(simulation):
+        module = ModuleType("fem.simulate")
+        module.simulate = simulation.simulate
+        monkeypatch.setitem(sys.modules, "fem.simulate", module)
+        return simulation
+
+    return install
+
+
+# -- bad input -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("verb", ["run", "check"])
+@pytest.mark.parametrize("wrong", WRONG_CASES + SET_SYNTAX, ids=lambda wrong: wrong.name)
+def test_bad_input_gives_one_line_and_writes_nothing(
+    verb, wrong: WrongCase, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    path = wrong.write(tmp_path)
+    before = contents(tmp_path)
+    output = ["-o", "out"] if verb == "run" else []
+    overrides = [word for text in wrong.overrides for word in ("--set", text)]
+
+    code = command(verb, path.name, *output, *overrides)
+
+    printed = capsys.readouterr()
+    assert code == 2
+    assert printed.out == ""
+    assert len(printed.err.splitlines()) == 1
+    file = "--set" if wrong in SET_SYNTAX else wrong.blames
+    for part in (file, wrong.key, wrong.found, wrong.expected):
+        assert part in printed.err
+    assert contents(tmp_path) == before
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        [],
+        ["simulate"],
+        ["run"],
+        ["run", "case.toml", "--fast"],
+        ["template", "mesh"],
+        ["check", "case.toml", "--set"],
+    ],
+    ids=" ".join,
+)
+def test_wrong_usage_gives_one_line(words, case_file, capsys):
+    assert command(*words) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert len(printed.err.splitlines()) == 1
+
+
+def test_output_folder_that_is_a_file_is_refused_before_the_simulation(case_file, capsys, stub):
+    simulation = stub(StubSimulation())
+    Path("taken").write_text("mine")
+    assert command("run", case_file, "-o", "taken/out") == 2
+    assert "taken: a file, expected a writable folder" in capsys.readouterr().err
+    assert simulation.cases == []
+    assert Path("taken").read_text() == "mine"
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser may write everywhere")
+def test_output_folder_without_permission_is_refused(case_file, capsys, stub):
+    stub(StubSimulation())
+    Path("locked").mkdir(mode=0o500)
+    assert command("run", case_file, "-o", "locked/out") == 2
+    assert "without permission" in capsys.readouterr().err
+
+
+def test_pardiso_without_its_package_is_refused(case_file, capsys, monkeypatch):
+    monkeypatch.setattr(treadfem.importlib.util, "find_spec", lambda name: None)
+    assert command("check", case_file, "--set", "solver.linear_solver=pardiso") == 2
+    assert "solver.linear_solver" in capsys.readouterr().err
+
+
+# -- run -------------------------------------------------------------------------------------------
+
+
+def test_run_writes_the_result_and_prints_a_summary(case_file, capsys, stub):
+    stub(StubSimulation())
+    assert command("run", case_file, "-o", "out/deep") == 0
+    printed = capsys.readouterr()
+    assert json.loads(Path("out/deep/summary.json").read_text())["status"] == "ok"
+    assert "T_max_C" in printed.out
+    assert "41.25" in printed.out
+    assert "results in out/deep" in printed.out
+    assert printed.err == ""
+
+
+def test_run_goes_to_a_folder_named_like_the_case_by_default(case_file, stub):
+    stub(StubSimulation())
+    assert command("run", case_file, "--quiet") == 0
+    assert Path("results/case/summary.json").exists()
+
+
+def test_progress_is_printed_in_lines_when_there_is_no_terminal(case_file, capsys, stub):
+    stub(StubSimulation())
+    command("run", case_file, "-o", "out")
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split("%")[0].strip() for line in lines if "%" in line] == ["50", "100"]
+
+
+def test_quiet_run_prints_nothing(case_file, capsys, stub):
+    stub(StubSimulation())
+    assert command("run", case_file, "-o", "out", "--quiet") == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def test_overrides_reach_the_simulation(case_file, stub):
+    simulation = stub(StubSimulation())
+    command("run", case_file, "--quiet", "--set", "loading.velocity_mm_per_s=-50")
+    assert simulation.cases[0].loading.velocity_mm_per_s == -50.0
+
+
+def test_no_convergence_gives_code_3_and_keeps_what_was_accepted(case_file, capsys, stub):
+    stub(StubSimulation("not converged", reason="step below its minimum", advice="refine"))
+    assert command("run", case_file, "-o", "out") == 3
+    assert capsys.readouterr().err == "treadfem: not converged: step below its minimum; refine\n"
+    assert Path("out/summary.json").exists()
+
+
+def test_interrupted_simulation_gives_code_130_and_keeps_what_was_accepted(case_file, stub):
+    stub(StubSimulation("interrupted"))
+    assert command("run", case_file, "-o", "out", "--quiet") == 130
+    assert Path("out/summary.json").exists()
+
+
+def test_interrupt_before_anything_was_accepted_gives_code_130(case_file, capsys, stub):
+    class Interrupted(StubSimulation):
+        def simulate(self, case, *, progress=None):
+            raise KeyboardInterrupt
+
+    stub(Interrupted())
+    assert command("run", case_file, "-o", "out") == 130
+    assert capsys.readouterr().err == "treadfem: interrupted\n"
+    assert not Path("out").exists()
+
+
+# -- check, template -------------------------------------------------------------------------------
+
+
+def test_check_prints_the_resolved_case_and_writes_nothing(case_file, tmp_path, capsys):
+    before = contents(tmp_path)
+    assert command("check", case_file, "--set", "block.mesh=coarse") == 0
+    resolved = tmp_path / "resolved.toml"
+    assert contents(tmp_path) == before
+    resolved.write_text(capsys.readouterr().out)
+    assert Case.from_toml(resolved) == Case.from_toml(case_file, {"block.mesh": "coarse"})
+
+
+@pytest.mark.parametrize("words", [["template"], ["template", "case"]], ids=" ".join)
+def test_template_passes_the_check(words, tmp_path, capsys):
+    assert command(*words) == 0
+    path = tmp_path / "template.toml"
+    path.write_text(capsys.readouterr().out)
+    assert command("check", path) == 0
+
+
+@pytest.mark.parametrize(
+    "example", sorted((ROOT / "examples").glob("*.toml")), ids=lambda p: p.stem
+)
+def test_every_example_passes_the_check(example, capsys):
+    assert command("check", example) == 0
+
+
+def test_unknown_figure_is_refused(capsys, tmp_path):
+    pytest.importorskip("validation.figures")
+    assert command("figure", "1000", "-o", tmp_path / "out") == 2
+    printed = capsys.readouterr()
+    assert "1000" in printed.err
+    assert len(printed.err.splitlines()) == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_module_runs_as_a_program():
+    words = [sys.executable, "-m", "treadfem", "check", "examples/introductory.toml"]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "yeoh-bars-series-1-load" in done.stdout
+
+
+def test_reader_that_stops_reading_is_no_error():
+    words = f"{sys.executable} -m treadfem template | true"
+    done = subprocess.run(
+        words, cwd=ROOT, capture_output=True, text=True, timeout=120, check=False, shell=True
+    )
+    assert done.stderr == ""
