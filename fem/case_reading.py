@@ -6,7 +6,7 @@ import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from fem.case_errors import CaseError, describe
 from fem.case_friction import ALL_PARAMETERS
@@ -67,7 +67,7 @@ def read_toml(path: Path, *, named_by: tuple[str, str] | None = None) -> Table:
         _raise(str(path), "syntax", "tables nested too deeply", "TOML")
 
 
-def _raise(file: str, key: str, found: str, expected: str) -> Any:
+def _raise(file: str, key: str, found: str, expected: str) -> NoReturn:
     raise CaseError(file=file, key=key, found=found, expected=expected) from None
 
 
@@ -106,7 +106,7 @@ def parse_override(text: str) -> tuple[str, Any]:
     except (tomllib.TOMLDecodeError, RecursionError):
         if _BARE_WORD.fullmatch(value):
             return key, value
-    return _raise("--set", key, describe(value), 'a TOML value, e.g. 0.3, true, "text"')
+    _raise("--set", key, describe(value), 'a TOML value, e.g. 0.3, true, "text"')
 
 
 def apply_overrides(source: Source, overrides: dict[str, Any]) -> None:
