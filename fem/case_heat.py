@@ -27,7 +27,7 @@ class Partition(Section):
     law: Literal["power", "constant"] = Field(
         "power", description='"power": prefactor p^exponent, eq. (14); "constant": the prefactor'
     )
-    prefactor: Positive = Field(0.3146, description="kappa at 1 N/mm^2 [-]")
+    prefactor: NotNegative = Field(0.3146, description="kappa at 1 N/mm^2 [-]")
     exponent: Finite = Field(-0.6833, description="exponent of the pressure [-]")
     cap: Share = Field(1.0, description="largest share that may become heat [-]")
 
