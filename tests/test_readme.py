@@ -1,0 +1,68 @@
+"""What the README tells a newcomer to type works."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import treadfem
+from fem.case import Case
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+LOADING = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300.0, "distance_mm": 1.0}
+
+
+def fenced(language: str) -> list[str]:
+    """Fenced blocks of one language."""
+    return re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
+
+
+def commands(program: str) -> list[list[str]]:
+    """Words of every indented command line of a program, without redirections."""
+    lines = re.findall(rf"^    (?:\.venv/bin/)?{program} (.*)$", README, flags=re.MULTILINE)
+    return [shlex.split(line.split(" > ")[0], comments=True) for line in lines]
+
+
+@pytest.mark.parametrize("words", commands("treadfem"), ids=" ".join)
+def test_command_is_understood(words):
+    treadfem._parser().parse_args(words)
+
+
+def test_the_way_from_template_to_check_works(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert ["template"] in commands("treadfem")
+    assert treadfem.main(["template"]) == 0
+    Path("my_case.toml").write_text(capsys.readouterr().out)
+    assert treadfem.main(["check", "my_case.toml"]) == 0
+
+
+@pytest.mark.parametrize("words", commands("make"), ids=" ".join)
+def test_make_target_exists(words):
+    makefile = (ROOT / "Makefile").read_text()
+    for target in words:
+        assert re.search(rf"^{target}:", makefile, flags=re.MULTILINE), target
+
+
+@pytest.mark.parametrize("text", fenced("toml"))
+def test_case_snippet_is_a_case(text):
+    tables = tomllib.loads(text)
+    Case.from_dict({"loading": LOADING, **tables})
+
+
+@pytest.mark.parametrize("text", fenced("python"))
+def test_python_example_runs(text, tmp_path, monkeypatch, capsys):
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    exec(compile(text, "README.md", "exec"), {})
+    assert "N/mm" in capsys.readouterr().out
+    assert (tmp_path / "results/short/summary.json").exists()
+
+
+@pytest.mark.parametrize("target", re.findall(r"\]\(([^)#:]+)\)", README))
+def test_link_leads_to_a_file(target):
+    assert (ROOT / target).exists()
