@@ -113,7 +113,9 @@ class BlockConduction:
 
     def _lumped_capacity(self, basis: Basis) -> FloatArray:
         """Heat capacity of each node per mm depth, (n,) [mJ/K]."""
-        shares = np.array([np.sum(basis.basis[a][0].value * basis.dx, axis=1) for a in range(4)])
+        shares = np.array(
+            [np.sum(np.asarray(basis.basis[a][0]) * basis.dx, axis=1) for a in range(4)]
+        )
         volume = np.bincount(self.cells.ravel(), weights=shares.T.ravel(), minlength=self.n)
         return np.asarray(self.rubber.heat_capacity * volume, dtype=np.float64)
 

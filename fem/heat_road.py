@@ -56,7 +56,7 @@ class RoadGrid:
     """
 
     column: float = 0.2
-    surface_layer: float = 0.02
+    surface_layer: float = 0.01
     growth: float = 1.25
     depth: float = 12.0
     behind: float = 1.0

@@ -1,0 +1,96 @@
+"""Energy audit of a run: work done against what was stored, dissipated and set in motion.
+
+Forces are integrated over the steps by the trapezoidal rule, so that the audit's own error is of
+second order; what backward Euler dissipates numerically (in snaps) shows up as an error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem.coupling import AcceptedStep
+from fem.mechanics import BlockMechanics, platen_displacement
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnergyAudit:
+    """Energies since the start, per depth [mJ/mm]; the forces are those of the last step [N/mm].
+
+    Attributes
+    ----------
+    work_in, friction, viscous : float
+        Work of the platen, friction on the road, Kelvin-Voigt dissipation.
+    strain_energy, kinetic : float
+        Stored now.
+    capped, dissipated : float
+        Friction work where the heat partition was capped, and all of it (end-of-step forces).
+    """
+
+    work_in: float = 0.0
+    friction: float = 0.0
+    viscous: float = 0.0
+    strain_energy: float = 0.0
+    kinetic: float = 0.0
+    capped: float = 0.0
+    dissipated: float = 0.0
+    platen_force_x: float = 0.0
+    platen_force_y: float = 0.0
+
+    @property
+    def error(self) -> float:
+        """Work in minus stored, dissipated and kinetic energy, relative to the work in [-]."""
+        found = self.strain_energy + self.friction + self.viscous + self.kinetic
+        return abs(self.work_in - found) / self.work_in if self.work_in > 0.0 else 0.0
+
+    @property
+    def regularisation_share(self) -> float:
+        """Kelvin-Voigt dissipation relative to the work in [-]."""
+        return self.viscous / self.work_in if self.work_in > 0.0 else 0.0
+
+    @property
+    def capped_share(self) -> float:
+        """Share of the friction work whose heat partition was capped [-]."""
+        return self.capped / self.dissipated if self.dissipated > 0.0 else 0.0
+
+
+def audited(audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics) -> EnergyAudit:
+    """Audit after one more accepted step."""
+    before, after = step.before, step.after
+    assert step.evaluation.elements is not None
+    force_x = float(step.evaluation.nodal[mechanics.mesh.top, 0].sum())
+    lowered = platen_displacement(mechanics.mesh, after.mechanics.u) - platen_displacement(
+        mechanics.mesh, before.mechanics.u
+    )
+    work = 0.5 * (audit.platen_force_x + force_x) * step.target.sweep
+    work += 0.5 * (audit.platen_force_y + step.target.force) * lowered
+    slip = after.contact.slip_velocity * step.target.dt
+    # A node that has just closed moved with it only for part of the step; its force counts half.
+    friction = -0.5 * float(np.sum((before.contact.shear + after.contact.shear) * slip))
+    kinetic = 0.5 * float(np.sum(mechanics.mass[:, None] * after.mechanics.velocity**2))
+    dissipated = step.power * step.target.dt
+    return EnergyAudit(
+        work_in=audit.work_in + work,
+        friction=audit.friction + friction,
+        viscous=audit.viscous + viscous_work(step, mechanics),
+        strain_energy=mechanics.elements.strain_energy(step.evaluation.elements.kinematics),
+        kinetic=kinetic,
+        capped=audit.capped + float(np.sum(dissipated[step.capped])),
+        dissipated=audit.dissipated + float(np.sum(dissipated)),
+        platen_force_x=force_x,
+        platen_force_y=step.target.force,
+    )
+
+
+def viscous_work(step: AcceptedStep, mechanics: BlockMechanics) -> float:
+    """Kelvin-Voigt dissipation of a step, S:(E - E_n) [mJ/mm]."""
+    viscosity, elements = step.problem.viscosity, step.evaluation.elements
+    if viscosity is None or elements is None:
+        return 0.0
+    S11, S22, S12 = viscosity.stress(elements.kinematics)
+    density = (S11**2 + S22**2 + 2.0 * S12**2) / viscosity.rate
+    return float(np.sum(mechanics.elements.weights * density))

@@ -1,0 +1,281 @@
+"""One coupled step: friction coefficient, mechanics, then heat.
+
+The friction coefficient is taken from the state before the step and corrected by an outer fixed
+point (a law that weakens with speed makes a fully implicit coefficient stall: smaller steps then
+make it worse). What remains of the lag is measured. Heat follows the accepted mechanics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.active_set import ContactForces, ContactStatus
+from contact.conductance import GapConductance
+from contact.friction import ThermalFriction
+from contact.partition import HeatPartition
+from fem import newton
+from fem.heat import HeatLoad, HeatModel, HeatState
+from fem.mechanics import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
+from fem.programme import Target
+from fem.state import MechanicalState
+
+FloatArray = NDArray[np.float64]
+
+#: 1 W/(m^2 K) in N/(mm s K).
+W_PER_M2K = 1e-3
+#: Lag of the friction force below which no further pass is made [-].
+LAG_TOLERANCE = 1e-4
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoadContact:
+    """Contact of the candidates with the road at the end of a step, arrays (m,).
+
+    Attributes
+    ----------
+    status : ContactStatus
+        Open, stick or slip.
+    length : float array
+        Contact length of each node [mm].
+    normal, shear : float arrays
+        Force of the road on the block per depth, upwards and along x [N/mm]; 0 where open.
+    pressure : float array
+        Normal force per contact length, 0 where open [N/mm^2].
+    slip_velocity : float array
+        Velocity over the road, signed [mm/s].
+    mu : float array
+        Friction coefficient the step was solved with [-].
+    """
+
+    status: ContactStatus
+    length: FloatArray
+    normal: FloatArray
+    shear: FloatArray
+    pressure: FloatArray
+    slip_velocity: FloatArray
+    mu: FloatArray
+
+    @property
+    def contact_length(self) -> float:
+        """Total contact length [mm]."""
+        return float(self.length[self.status.active].sum())
+
+    @property
+    def normal_force(self) -> float:
+        """Normal force on the road [N/mm]."""
+        return float(self.normal.sum())
+
+    @property
+    def friction_force(self) -> float:
+        """Force of the block on the road along x, positive to the right [N/mm]."""
+        return float(-self.shear.sum())
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoupledState:
+    """Accepted state of block, contact and heat."""
+
+    time: float
+    position: float
+    mechanics: MechanicalState
+    heat: HeatState
+    contact: RoadContact
+    mu: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class AcceptedStep:
+    """A solved step: its start, its end and what was done.
+
+    Attributes
+    ----------
+    before, after : CoupledState
+        States at both ends.
+    target : Target
+        Loads and motion of the step.
+    evaluation : StepEvaluation
+        Nodal forces and kinematics at the end.
+    problem : StepProblem
+        The mechanics problem (velocities, viscous term).
+    iterations : int
+        Newton iterations of all passes.
+    lag_error : float
+        Relative change of the friction force that a further pass would bring [-].
+    power : (m,) float array
+        Frictional power of the candidates [mJ/s].
+    kappa : (m,) float array
+        Share of it that heats the rubber [-].
+    capped : (m,) bool array
+        Where the partition was capped.
+    """
+
+    before: CoupledState
+    after: CoupledState
+    target: Target
+    evaluation: StepEvaluation
+    problem: StepProblem
+    iterations: int
+    lag_error: float
+    power: FloatArray
+    kappa: FloatArray
+    capped: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RejectedStep:
+    """A step without a solution, and why."""
+
+    failure: newton.Failure
+    detail: str
+    iterations: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactLaws:
+    """Friction, heat partition and gap conductance of the interface."""
+
+    friction: ThermalFriction
+    partition: HeatPartition
+    conductance: GapConductance
+
+
+class CoupledModel:
+    """Mechanics and heat of one block, advanced step by step.
+
+    Parameters
+    ----------
+    mechanics : BlockMechanics
+        Mechanical equations.
+    heat : HeatModel
+        Heat of block and road.
+    laws : ContactLaws
+        Laws of the interface.
+    mean_pressure : float
+        Pressure assumed for nodes that are about to touch the road [N/mm^2].
+    friction_passes : int
+        Largest number of passes over the friction coefficient in a step.
+    options : newton.NewtonOptions
+        Limits of the Newton iteration.
+    """
+
+    def __init__(
+        self,
+        mechanics: BlockMechanics,
+        heat: HeatModel,
+        laws: ContactLaws,
+        *,
+        mean_pressure: float,
+        friction_passes: int,
+        options: newton.NewtonOptions,
+    ) -> None:
+        self.mechanics, self.heat, self.laws = mechanics, heat, laws
+        self.mean_pressure, self.friction_passes = mean_pressure, friction_passes
+        self.options = options
+
+    def initial_state(self) -> CoupledState:
+        """Block at rest, just touching the road, at ambient temperature."""
+        mechanics, heat = self.mechanics.initial_state(), self.heat.initial_state()
+        zeros = np.zeros(self.mechanics.candidates.size)
+        contact = RoadContact(
+            status=mechanics.status, length=zeros, normal=zeros, shear=zeros, pressure=zeros,
+            slip_velocity=zeros, mu=zeros,
+        )  # fmt: skip
+        contact = replace(
+            contact, pressure=np.where(mechanics.status.active, self.mean_pressure, 0)
+        )
+        return CoupledState(
+            time=0.0, position=0.0, mechanics=mechanics, heat=heat, contact=contact,
+            mu=self._coefficient(contact, heat),
+        )  # fmt: skip
+
+    def advance(self, state: CoupledState, target: Target) -> AcceptedStep | RejectedStep:
+        """Solve one step from an accepted state; the state is not changed."""
+        mu, iterations, start = state.mu, 0, None
+        for last in [False] * (self.friction_passes - 1) + [True]:
+            load = StepLoad(dt=target.dt, sweep=target.sweep, force=target.force, mu=mu)
+            problem = self.mechanics.step(state.mechanics, load)
+            result = newton.solve(problem, start or problem.start(), self.options)
+            iterations += result.iterations
+            if result.failure is not None:
+                return RejectedStep(
+                    failure=result.failure, detail=result.detail, iterations=iterations
+                )
+            contact = self._contact(problem, result.x, result.evaluation)
+            mu_next = self._coefficient(contact, state.heat)
+            lag = lag_error(contact, mu_next)
+            if last or lag < LAG_TOLERANCE:
+                break
+            mu, start = mu_next, result.x
+        return self._accept(
+            state, target, problem, result, contact, mu_next, iterations=iterations, lag=lag
+        )
+
+    def _contact(self, problem: StepProblem, x: Iterate, evaluation: StepEvaluation) -> RoadContact:
+        """Contact quantities of a converged iterate."""
+        forces: ContactForces = problem.contact_forces(x.u, evaluation.nodal)
+        active = x.status.active
+        length = self.mechanics.contact_lengths(x.u, active)
+        normal = np.where(active, forces.normal, 0.0)
+        return RoadContact(
+            status=x.status, length=np.where(active, length, 0.0), normal=normal,
+            shear=np.where(active, forces.tangential, 0.0),
+            pressure=np.maximum(normal, 0.0) / length,
+            slip_velocity=forces.slip / problem.load.dt, mu=problem.load.mu,
+        )  # fmt: skip
+
+    def _coefficient(self, contact: RoadContact, heat: HeatState) -> FloatArray:
+        """Friction coefficient at the contact's pressure, slip velocity and temperature."""
+        p = np.where(contact.status.active, contact.pressure, self.mean_pressure)
+        v = np.where(contact.status.sticking, 0.0, np.abs(contact.slip_velocity))
+        return self.laws.friction.coefficient(p, v, heat.T[self.mechanics.candidates])
+
+    def _accept(
+        self,
+        state: CoupledState,
+        target: Target,
+        problem: StepProblem,
+        result: newton.NewtonResult[Iterate, StepEvaluation],
+        contact: RoadContact,
+        mu_next: FloatArray,
+        *,
+        iterations: int,
+        lag: float,
+    ) -> AcceptedStep:
+        x = result.x
+        power = np.abs(contact.shear * contact.slip_velocity)
+        kappa = self.laws.partition(contact.pressure)
+        uncapped = self.laws.partition.uncapped(contact.pressure)
+        heat = self._heat(state, target, x.u, contact, kappa * power)
+        mechanics = MechanicalState(u=x.u, velocity=problem.velocity(x.u), p=x.p, status=x.status)
+        after = CoupledState(
+            time=state.time + target.dt, position=state.position + target.sweep,
+            mechanics=mechanics, heat=heat, contact=contact, mu=mu_next,
+        )  # fmt: skip
+        return AcceptedStep(
+            before=state, after=after, target=target, evaluation=result.evaluation,
+            problem=problem, iterations=iterations, lag_error=lag, power=power, kappa=kappa,
+            capped=uncapped > self.laws.partition.cap,
+        )  # fmt: skip
+
+    def _heat(
+        self, state: CoupledState, target: Target, u: FloatArray, contact: RoadContact,
+        power: FloatArray,
+    ) -> HeatState:  # fmt: skip
+        active = contact.status.active
+        h = self.laws.conductance.conductance(contact.pressure, np.abs(contact.slip_velocity))
+        load = HeatLoad(
+            dt=target.dt, sweep=target.sweep, displacement=u,
+            contact_nodes=self.mechanics.candidates[active], power=power[active],
+            conductance=(W_PER_M2K * h * contact.length)[active],
+        )  # fmt: skip
+        return self.heat.advance(state.heat, load, state.position)
+
+
+def lag_error(contact: RoadContact, mu_next: FloatArray) -> float:
+    """Relative change of the slip force between two friction coefficients [-]."""
+    weight = np.where(contact.status.slipping, np.abs(contact.normal), 0.0)
+    total = float(np.sum(weight * contact.mu))
+    return float(np.sum(weight * np.abs(mu_next - contact.mu))) / total if total > 0.0 else 0.0

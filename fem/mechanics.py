@@ -1,0 +1,365 @@
+"""One implicit step of the block's mechanics: equilibrium, inertia, platen and road contact.
+
+Everything is written in the platen's frame: the block's top does not move along x, the road moves
+below it by ``-sweep`` in a step. Equations and unknowns are the free displacements; the common
+vertical displacement of the platen is one of them. For a rigid plane the normal constraint of a
+node in contact replaces its vertical equation, its reaction is the nodal force of that equation,
+and Coulomb friction is the row operation ``row_x + s mu row_y`` (s: sense of the slip).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
+from fem.elements import ElementForces, Q1P0Elements, Viscosity
+from fem.linear_solver import LinearSolver, SuperLUSolver, fill_reducing_order
+from fem.mesh import BlockMesh
+from fem.sparse_pattern import SparsePattern
+from fem.state import MechanicalState
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepLoad:
+    """Loads and prescribed motion of one step.
+
+    Attributes
+    ----------
+    dt : float
+        Length of the step [s].
+    sweep : float
+        Motion of the platen over the road in the step, signed [mm].
+    force : float
+        Force on the platen, downwards, per depth, at the end of the step [N/mm].
+    mu : (m,) float array
+        Friction coefficient of the candidates [-].
+    """
+
+    dt: float
+    sweep: float
+    force: float
+    mu: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Iterate:
+    """Unknowns of the Newton iteration (also used for directions, with the status unused)."""
+
+    u: FloatArray
+    p: FloatArray
+    status: ContactStatus
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepEvaluation:
+    """Residual of an iterate.
+
+    Attributes
+    ----------
+    merit : float
+        Largest residual over its tolerance scale; inf if the iterate is not admissible.
+    settled : bool
+        Whether the status asked for is the one the iterate was computed with.
+    status : ContactStatus
+        Status asked for by the iterate.
+    nodal : (n, 2) float array
+        Nodal forces: internal, viscous and inertial, minus the applied ones [N/mm].
+    """
+
+    merit: float
+    settled: bool
+    status: ContactStatus
+    nodal: FloatArray
+    residual: FloatArray
+    elements: ElementForces | None
+
+
+class BlockMechanics:
+    """Discrete equations of a block between platen and road.
+
+    Parameters
+    ----------
+    mesh : BlockMesh
+        Reference mesh.
+    elements : Q1P0Elements
+        Element kernel on that mesh.
+    density : float
+        Mass density [t/mm^3]; zero for quasi-static steps.
+    viscosity : float
+        Kelvin-Voigt viscosity eta [N s/mm^2]; zero for none.
+    top : {"platen", "pressure"}
+        Rigid platen, or free uniform pressure with fixed horizontal displacement.
+    tolerance : float
+        Force residual [N/mm] that counts as converged.
+    """
+
+    def __init__(
+        self,
+        mesh: BlockMesh,
+        elements: Q1P0Elements,
+        *,
+        density: float = 0.0,
+        viscosity: float = 0.0,
+        top: Literal["platen", "pressure"] = "platen",
+        tolerance: float = 1e-8,
+        solver: LinearSolver | None = None,
+    ) -> None:
+        self.mesh, self.elements, self.top = mesh, elements, top
+        self.viscosity, self.tolerance = viscosity, tolerance
+        self.solver: LinearSolver = solver or SuperLUSolver()
+        n = len(mesh.points)
+        self.mass = np.bincount(
+            mesh.cells.ravel(), np.repeat(density * elements.volume / 4.0, 4), minlength=n
+        )
+        self.candidates = mesh.boundary[1:-1]
+        self._number_equations()
+        self._top_load = np.zeros(n)
+        edge = np.abs(np.diff(mesh.points[mesh.top, 0])) / (2.0 * mesh.length)
+        self._top_load[mesh.top[:-1]] += edge
+        self._top_load[mesh.top[1:]] += edge
+
+    def _number_equations(self) -> None:
+        """Equation numbers of all dofs (-1: prescribed), in a fill-reducing order."""
+        n = len(self.mesh.points)
+        dof = np.zeros((n, 2), dtype=np.int64)
+        dof[self.mesh.top, 0] = -1
+        if self.top == "platen":
+            dof[self.mesh.top[1:], 1] = -1
+        free = dof >= 0
+        dof[free] = np.arange(free.sum())
+        if self.top == "platen":
+            dof[self.mesh.top[1:], 1] = dof[self.mesh.top[0], 1]
+        size = int(free.sum())
+        pattern = SparsePattern.from_elements(self._element_equations(dof), size)
+        data = np.ones(pattern.nnz)
+        data[pattern.diagonal_slots()] = 100.0
+        order = fill_reducing_order(pattern.matrix(data))
+        number = np.empty(size, dtype=np.int64)
+        number[order] = np.arange(size)
+        dof[dof >= 0] = number[dof[dof >= 0]]
+        self.equation = dof
+        self.pattern = SparsePattern.from_elements(self._element_equations(dof), size)
+        self._diagonal = self.pattern.diagonal_slots()
+        rows = self.equation[self.candidates]
+        self._slots_x, self._owner = self.pattern.row_slots(rows[:, 0])
+        self._slots_y, _ = self.pattern.row_slots(rows[:, 1])
+        self._numbered = dof.ravel() >= 0
+
+    def _element_equations(self, dof: IntArray) -> IntArray:
+        return dof[self.mesh.cells].reshape(-1, 8)
+
+    def initial_state(self) -> MechanicalState:
+        """Undeformed block at rest, just above the road."""
+        n = len(self.mesh.points)
+        status = ContactStatus.all_open(self.candidates.size)
+        on_road = self.mesh.points[self.candidates, 1] <= 0.0
+        status = replace(status, kind=np.where(on_road, STICK, status.kind))
+        zeros = np.zeros((n, 2))
+        return MechanicalState(
+            u=zeros, velocity=zeros, p=np.zeros(len(self.mesh.cells)), status=status
+        )
+
+    def step(self, state: MechanicalState, load: StepLoad) -> StepProblem:
+        """The nonlinear problem of one step from an accepted state."""
+        return StepProblem(self, state, load)
+
+    def gather(self, nodal: FloatArray) -> FloatArray:
+        """Sum nodal values (n, 2) into the equations, (size,)."""
+        return np.bincount(
+            self.equation.ravel()[self._numbered],
+            weights=nodal.ravel()[self._numbered],
+            minlength=self.pattern.size,
+        )
+
+    def scatter(self, x: FloatArray) -> FloatArray:
+        """Nodal values (n, 2) of an equation vector; zero where prescribed."""
+        return np.where(self.equation >= 0, x[self.equation], 0.0)
+
+    def gap(self, u: FloatArray) -> FloatArray:
+        """Distance of the candidates from the road, (m,) [mm]."""
+        return np.asarray(self.mesh.points[self.candidates, 1] + u[self.candidates, 1])
+
+    def contact_lengths(self, u: FloatArray, active: NDArray[np.bool_]) -> FloatArray:
+        """Current contact length of each candidate, (m,) [mm].
+
+        Half of each adjoining edge with both nodes in contact; a lone node has half of all its
+        edges' projections on the road.
+        """
+        boundary = self.mesh.boundary
+        x = self.mesh.points[boundary, 0] + u[boundary, 0]
+        half = 0.5 * np.abs(np.diff(x))
+        on = np.concatenate([[False], active, [False]])
+        both = np.where(on[:-1] & on[1:], half, 0.0)
+        full = both[:-1] + both[1:]
+        lone = half[:-1] + half[1:]
+        reference = 0.5 * (self._reference_edges[:-1] + self._reference_edges[1:])
+        return np.where(full > 0.0, full, np.maximum(lone, 0.1 * reference))
+
+    @property
+    def _reference_edges(self) -> FloatArray:
+        x = self.mesh.points[self.mesh.boundary]
+        return np.asarray(np.linalg.norm(np.diff(x, axis=0), axis=1))
+
+
+class StepProblem:
+    """Newton problem of one step (see `fem.newton.Problem`)."""
+
+    def __init__(self, system: BlockMechanics, state: MechanicalState, load: StepLoad) -> None:
+        self.system, self.state, self.load = system, state, load
+        elements = system.elements
+        self.viscosity: Viscosity | None = None
+        if system.viscosity > 0.0:
+            strain_n = elements.kinematics(state.u).green_lagrange
+            self.viscosity = Viscosity(rate=system.viscosity / load.dt, strain_n=strain_n)
+        self.frame = np.array([load.sweep / load.dt, 0.0])
+
+    def start(self) -> Iterate:
+        """Start value: the last state, with the status predicted from its motion.
+
+        Only nodes that already slip along the motion keep slipping; all others in contact stick.
+        """
+        status = self.state.status
+        along = status.slipping & (status.sense * self.load.sweep > 0.0)
+        kind = np.where(status.active, np.where(along, SLIP, STICK), status.kind)
+        return Iterate(u=self.state.u, p=self.state.p, status=replace(status, kind=kind))
+
+    def velocity(self, u: FloatArray) -> FloatArray:
+        """Absolute nodal velocities at the end of the step, (n, 2) [mm/s]."""
+        return np.asarray((u - self.state.u) / self.load.dt + self.frame)
+
+    def slip(self, u: FloatArray) -> FloatArray:
+        """Displacement of the candidates over the road in the step, (m,) [mm]."""
+        nodes = self.system.candidates
+        return np.asarray(u[nodes, 0] - self.state.u[nodes, 0] + self.load.sweep)
+
+    def evaluate(self, x: Iterate) -> StepEvaluation:
+        """Residual and status of an iterate."""
+        return self._evaluate(x, first=x.u is self.state.u)
+
+    def nodal_forces(self, u: FloatArray, elements: ElementForces) -> FloatArray:
+        """Internal, viscous and inertial minus applied nodal forces, (n, 2) [N/mm]."""
+        system, load = self.system, self.load
+        n = len(u)
+        nodal = np.bincount(
+            system.elements.dofs.ravel(), elements.residual.ravel(), minlength=2 * n
+        ).reshape(n, 2)
+        acceleration = (self.velocity(u) - self.state.velocity) / load.dt
+        nodal += system.mass[:, None] * acceleration
+        nodal[:, 1] += load.force * system._top_load
+        return np.asarray(nodal)
+
+    def _evaluate(self, x: Iterate, first: bool) -> StepEvaluation:
+        system = self.system
+        kin = system.elements.kinematics(x.u)
+        if not system.elements.admissible(kin):
+            return inadmissible(x.status)
+        elements = system.elements.forces(x.u, x.p, kin, self.viscosity)
+        nodal = self.nodal_forces(x.u, elements)
+        forces = self.contact_forces(x.u, nodal)
+        status = x.status
+        if not first:
+            status = next_status(
+                status, forces, self.load.mu,
+                force_tolerance=0.1 * system.tolerance, slip_tolerance=1e-12,
+            )  # fmt: skip
+        residual = self._residual(nodal, forces, status)
+        stiffness = system.elements.K_bulk
+        mismatch = np.abs(elements.pressure_residual * np.sqrt(system.elements.volume)).max()
+        merit = max(self._size(residual, status, stiffness), mismatch) / system.tolerance
+        return StepEvaluation(
+            merit=float(merit), settled=not first and status.same_as(x.status),
+            status=status, nodal=nodal, residual=residual, elements=elements,
+        )  # fmt: skip
+
+    def contact_forces(self, u: FloatArray, nodal: FloatArray) -> ContactForces:
+        """Gaps, reactions and slips of the candidates."""
+        nodes = self.system.candidates
+        return ContactForces(
+            gap=self.system.gap(u), normal=nodal[nodes, 1], tangential=nodal[nodes, 0],
+            slip=self.slip(u),
+        )  # fmt: skip
+
+    def _residual(
+        self, nodal: FloatArray, forces: ContactForces, status: ContactStatus
+    ) -> FloatArray:
+        """Residual of the equations: forces, gaps (active) and slips (sticking)."""
+        r = self.system.gather(nodal)
+        rows = self.system.equation[self.system.candidates]
+        slipping, sticking, active = status.slipping, status.sticking, status.active
+        friction = forces.tangential + status.sense * self.load.mu * forces.normal
+        r[rows[slipping, 0]] = friction[slipping]
+        r[rows[sticking, 0]] = forces.slip[sticking]
+        r[rows[active, 1]] = forces.gap[active]
+        return r
+
+    def _size(self, r: FloatArray, status: ContactStatus, stiffness: float) -> float:
+        """Largest residual, displacements weighted with a stiffness to forces [N/mm]."""
+        rows = self.system.equation[self.system.candidates]
+        scale = np.ones(r.size)
+        scale[rows[status.active, 1]] = stiffness
+        scale[rows[status.sticking, 0]] = stiffness
+        return float(np.abs(r * scale).max())
+
+    def direction(self, x: Iterate, evaluation: StepEvaluation) -> Iterate:
+        """Newton direction with the status asked for by the iterate."""
+        system = self.system
+        assert evaluation.elements is not None
+        data = self.tangent(evaluation)
+        matrix = system.pattern.matrix(data)
+        step = system.solver.solve(matrix, -evaluation.residual)
+        du = system.scatter(step)
+        dp = system.elements.pressure_increment(evaluation.elements, du)
+        return Iterate(u=du, p=dp, status=evaluation.status)
+
+    def tangent(self, evaluation: StepEvaluation) -> FloatArray:
+        """Data of the tangent of `residual` on the system's pattern."""
+        system = self.system
+        assert evaluation.elements is not None
+        K = system.elements.tangent(evaluation.elements, self.viscosity)
+        data = system.pattern.sum(K)
+        inertia = np.repeat(system.mass / self.load.dt**2, 2)
+        equations = system.equation.ravel()
+        data[system._diagonal] += np.bincount(
+            equations[system._numbered], inertia[system._numbered], minlength=system.pattern.size
+        )
+        return self._with_contact_rows(data, evaluation.status)
+
+    def _with_contact_rows(self, data: FloatArray, status: ContactStatus) -> FloatArray:
+        """Friction rows, stick rows and gap rows put into the matrix data."""
+        system, owner = self.system, self.system._owner
+        factor = np.where(status.slipping, status.sense * self.load.mu, 0.0)[owner]
+        data[system._slots_x] += factor * data[system._slots_y]
+        data[system._slots_x[status.sticking[owner]]] = 0.0
+        data[system._slots_y[status.active[owner]]] = 0.0
+        rows = system.equation[system.candidates]
+        data[system._diagonal[rows[status.sticking, 0]]] = 1.0
+        data[system._diagonal[rows[status.active, 1]]] = 1.0
+        return data
+
+    def moved(
+        self, x: Iterate, evaluation: StepEvaluation, direction: Iterate, alpha: float
+    ) -> Iterate:
+        """Iterate at ``x + alpha direction`` with the status of the direction."""
+        return Iterate(
+            u=x.u + alpha * direction.u, p=x.p + alpha * direction.p, status=direction.status
+        )
+
+
+def inadmissible(status: ContactStatus) -> StepEvaluation:
+    """Evaluation of an iterate whose energy does not exist."""
+    empty = np.zeros(0)
+    return StepEvaluation(
+        merit=np.inf, settled=False, status=status, nodal=empty, residual=empty, elements=None
+    )
+
+
+def platen_displacement(mesh: BlockMesh, u: FloatArray) -> float:
+    """Vertical displacement of the top, mean of its nodes, positive downwards [mm]."""
+    return float(-np.mean(u[mesh.top, 1]))

@@ -1,0 +1,152 @@
+"""Newton iteration with admissibility cuts and a non-monotone line search; it knows no physics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Generic, Protocol, TypeVar
+
+import numpy as np
+
+X = TypeVar("X")
+E = TypeVar("E", bound="Evaluation")
+
+
+class Evaluation(Protocol):
+    """What the iteration needs to know of an iterate."""
+
+    @property
+    def merit(self) -> float:
+        """Size of the residual, in the units of the tolerance; inf if not admissible."""
+        ...
+
+    @property
+    def settled(self) -> bool:
+        """Whether the discrete choices (active set) of the iterate no longer change."""
+        ...
+
+
+class Problem(Protocol[X, E]):
+    """A nonlinear problem with iterates X and evaluations E; neither changes state."""
+
+    def evaluate(self, x: X) -> E:
+        """Residual and status of an iterate."""
+        ...
+
+    def direction(self, x: X, evaluation: E) -> X:
+        """Newton direction at the iterate; raises `ArithmeticError` when there is none."""
+        ...
+
+    def moved(self, x: X, evaluation: E, direction: X, alpha: float) -> X:
+        """Iterate at ``x + alpha direction``."""
+        ...
+
+
+class Failure(Enum):
+    """Why an iteration ended without a solution; the value says what it means."""
+
+    ITERATIONS = "no convergence within the allowed iterations"
+    INADMISSIBLE = "no admissible step (an element would invert or reach the locking stretch)"
+    SINGULAR = "the tangent is singular (limit point or missing support)"
+    DIVERGED = "the residual grows whatever the step length"
+
+
+@dataclass(frozen=True, kw_only=True)
+class NewtonOptions:
+    """Limits of the iteration.
+
+    Attributes
+    ----------
+    tolerance : float
+        Merit below which an iterate is a solution.
+    iterations_max : int
+        Allowed iterations (factorisations).
+    halvings_max : int
+        Allowed cuts of one step.
+    growth_max : float
+        Largest accepted growth of the merit over the largest of the last iterates. Above one,
+        since the merit jumps when the active set changes.
+    """
+
+    tolerance: float = 1.0
+    iterations_max: int = 25
+    halvings_max: int = 8
+    growth_max: float = 20.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class NewtonResult(Generic[X, E]):
+    """Last iterate, its evaluation, and how the iteration ended (failure None: converged)."""
+
+    x: X
+    evaluation: E
+    iterations: int
+    failure: Failure | None = None
+    detail: str = ""
+
+    @property
+    def converged(self) -> bool:
+        """Whether `x` is a solution."""
+        return self.failure is None
+
+
+def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[X, E]:
+    """Solve a problem by Newton's method from the start value `x`.
+
+    Parameters
+    ----------
+    problem : Problem
+        Evaluates iterates and gives Newton directions.
+    x : X
+        Start value; never changed.
+    options : NewtonOptions
+        Limits.
+
+    Returns
+    -------
+    NewtonResult
+    """
+    evaluation = problem.evaluate(x)
+    if not np.isfinite(evaluation.merit):
+        return NewtonResult(x=x, evaluation=evaluation, iterations=0, failure=Failure.INADMISSIBLE)
+    merits = [evaluation.merit]
+    for iteration in range(options.iterations_max):
+        if evaluation.settled and evaluation.merit <= options.tolerance:
+            return NewtonResult(x=x, evaluation=evaluation, iterations=iteration)
+        try:
+            direction = problem.direction(x, evaluation)
+        except ArithmeticError as error:
+            return NewtonResult(
+                x=x, evaluation=evaluation, iterations=iteration + 1,
+                failure=Failure.SINGULAR, detail=str(error),
+            )  # fmt: skip
+        bound = options.growth_max * max(max(merits[-3:]), options.tolerance)
+        step = _line_search(problem, x, evaluation, direction, bound, options.halvings_max)
+        if step is None:
+            admissible = problem.evaluate(problem.moved(x, evaluation, direction, 1e-3))
+            failure = Failure.DIVERGED if np.isfinite(admissible.merit) else Failure.INADMISSIBLE
+            return NewtonResult(
+                x=x, evaluation=evaluation, iterations=iteration + 1, failure=failure
+            )
+        x, evaluation = step
+        merits.append(evaluation.merit)
+    if evaluation.settled and evaluation.merit <= options.tolerance:
+        return NewtonResult(x=x, evaluation=evaluation, iterations=options.iterations_max)
+    return NewtonResult(
+        x=x, evaluation=evaluation, iterations=options.iterations_max,
+        failure=Failure.ITERATIONS, detail=f"last merit {evaluation.merit:.2e}",
+    )  # fmt: skip
+
+
+def _line_search(
+    problem: Problem[X, E], x: X, evaluation: E, direction: X, bound: float, halvings: int
+) -> tuple[X, E] | None:
+    """First of alpha = 1, 1/2, ... whose merit is below the bound; None if there is none."""
+    alpha = 1.0
+    for _ in range(halvings + 1):
+        trial = problem.moved(x, evaluation, direction, alpha)
+        trial_evaluation = problem.evaluate(trial)
+        if trial_evaluation.merit <= bound:
+            return trial, trial_evaluation
+        alpha *= 0.5
+    return None

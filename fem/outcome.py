@@ -1,0 +1,42 @@
+"""How a run ended: named outcomes, each with its reason and what to try."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fem.newton import Failure
+
+OK = "ok"
+NOT_CONVERGED = "not converged"
+INTERRUPTED = "interrupted"
+
+ADVICE = {
+    Failure.ITERATIONS: (
+        "a finer mesh at the leading edge, a smaller [solver] step_mm_max, or a larger "
+        "viscous_time_s often helps"
+    ),
+    Failure.INADMISSIBLE: (
+        "the rubber is strained beyond what its model or mesh can follow: check the pressure and "
+        "the locking stretch, or refine the mesh at the leading edge"
+    ),
+    Failure.SINGULAR: (
+        "the block has lost its support or buckles: switch [solver] inertia on, or use a smaller "
+        "pressure"
+    ),
+    Failure.DIVERGED: "use smaller steps ([solver] step_mm_max) or a finer mesh",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """Status of a run with reason and advice where it did not finish."""
+
+    status: str
+    reason: str = ""
+    advice: str = ""
+
+
+def failed(failure: Failure, detail: str, where: str) -> Outcome:
+    """Outcome of a run that could not go on."""
+    reason = f"{failure.value} at {where}" + (f" ({detail})" if detail else "")
+    return Outcome(status=NOT_CONVERGED, reason=reason, advice=ADVICE[failure])

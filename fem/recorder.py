@@ -1,0 +1,146 @@
+"""Tables of a run from its accepted steps: history rows, bottom surface, field snapshots."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fem.audit import EnergyAudit
+from fem.case import Case
+from fem.coupling import AcceptedStep, CoupledModel, CoupledState
+from fem.mechanics import platen_displacement
+from fem.mesh import BlockMesh
+from fem.snapshot import BlockGeometry, Snapshot
+from fem.surface_profile import excess_area, interior_peak
+
+
+class Recorder:
+    """Collects rows and snapshots; sees accepted steps only.
+
+    Parameters
+    ----------
+    case : Case
+        For the ambient temperature and the number of snapshots.
+    model : CoupledModel
+        For mesh and elements.
+    """
+
+    def __init__(self, case: Case, model: CoupledModel) -> None:
+        self.case, self.model = case, model
+        self.rows: list[dict[str, Any]] = []
+        self.snapshots: list[Snapshot] = []
+        self.smallest_J = np.inf
+
+    @property
+    def mesh(self) -> BlockMesh:
+        """Reference mesh."""
+        return self.model.mechanics.mesh
+
+    @property
+    def geometry(self) -> BlockGeometry:
+        """Mesh for output."""
+        return BlockGeometry(points=self.mesh.points, cells=self.mesh.cells)
+
+    def record(self, step: AcceptedStep, audit: EnergyAudit) -> dict[str, Any]:
+        """Append the row of an accepted step and return it."""
+        assert step.evaluation.elements is not None
+        self.smallest_J = min(self.smallest_J, float(step.evaluation.elements.kinematics.J.min()))
+        row = self._contact_columns(step)
+        row |= temperature_columns(self.mesh, step.after, self.case.heat.ambient_C)
+        row |= {"newton_iterations": step.iterations}
+        row |= energy_columns(audit, step.after)
+        row |= {"friction_lag_error": step.lag_error}
+        row |= {"min_J": float(step.evaluation.elements.kinematics.J.min())}
+        status = step.after.contact.status
+        row |= {"sticking_nodes": int(status.sticking.sum())}
+        row |= {"slipping_nodes": int(status.slipping.sum())}
+        self.rows.append(row)
+        return row
+
+    def _contact_columns(self, step: AcceptedStep) -> dict[str, Any]:
+        contact, direction = step.after.contact, self.mesh.direction
+        normal, length = contact.normal_force, contact.contact_length
+        friction = direction * contact.friction_force
+        return {
+            "time_s": step.after.time,
+            "sliding_distance_mm": direction * step.after.position,
+            "velocity_mm_per_s": step.target.sweep / step.target.dt,
+            "normal_force_N_per_mm": normal,
+            "friction_force_N_per_mm": friction,
+            "friction_coefficient": friction / normal if normal > 0.0 else 0.0,
+            "contact_length_mm": length,
+            "mean_contact_pressure_N_per_mm2": normal / length if length > 0.0 else 0.0,
+            "max_contact_pressure_N_per_mm2": float(contact.pressure.max()),
+            "platen_displacement_mm": platen_displacement(self.mesh, step.after.mechanics.u),
+        }
+
+    def snapshot(self, state: CoupledState, distance: float) -> None:
+        """Append the fields of an accepted state."""
+        elements, mechanics = self.model.mechanics.elements, state.mechanics
+        kinematics = elements.kinematics(mechanics.u)
+        road = self.model.heat.road_field(state.heat, state.position)
+        self.snapshots.append(
+            Snapshot(
+                time_s=state.time,
+                sliding_distance_mm=distance,
+                displacement=mechanics.u,
+                temperature=state.heat.T,
+                cauchy_stress=elements.cauchy(kinematics),
+                stretch=elements.largest_stretch(kinematics),
+                pressure=mechanics.p,
+                road_points=road.points,
+                road_cells=road.cells,
+                road_temperature=road.temperature,
+            )
+        )
+
+    def surface(self, state: CoupledState) -> pd.DataFrame:
+        """Table of the bottom surface, from the trailing to the leading corner."""
+        mesh, contact = self.mesh, state.contact
+        place = np.full(len(mesh.points), -1)
+        place[self.model.mechanics.candidates] = np.arange(contact.length.size)
+        at = place[mesh.bottom]
+        x = mesh.points[mesh.bottom] + state.mechanics.u[mesh.bottom]
+        length = np.maximum(contact.length[at], 1e-300)
+        return pd.DataFrame(
+            {
+                "X_mm": mesh.bottom_coordinate,
+                "x_mm": x[:, 0],
+                "y_mm": x[:, 1],
+                "in_contact": contact.status.active[at],
+                "pressure_N_per_mm2": contact.pressure[at],
+                "shear_N_per_mm2": contact.shear[at] / length,
+                "slip_velocity_mm_per_s": contact.slip_velocity[at],
+                "T_C": state.heat.T[mesh.bottom],
+                "status": np.array(["open", "stick", "slip"])[contact.status.kind[at]],
+            }
+        )
+
+
+def temperature_columns(mesh: BlockMesh, state: CoupledState, ambient_C: float) -> dict[str, float]:
+    """T_max, T_edge and A_T of the bottom surface."""
+    X, T = mesh.bottom_coordinate, state.heat.T[mesh.bottom]
+    peak = interior_peak(X, T)
+    return {
+        "T_max_C": peak.T_max_C,
+        "T_edge_C": peak.T_edge_C,
+        "A_T_K_mm": excess_area(X, T, ambient_C),
+    }
+
+
+def energy_columns(audit: EnergyAudit, state: CoupledState) -> dict[str, float]:
+    """Columns of the energy and the heat audit."""
+    heat = state.heat
+    return {
+        "work_in_mJ_per_mm": audit.work_in,
+        "strain_energy_mJ_per_mm": audit.strain_energy,
+        "friction_dissipation_mJ_per_mm": audit.friction,
+        "viscous_dissipation_mJ_per_mm": audit.viscous,
+        "kinetic_energy_mJ_per_mm": audit.kinetic,
+        "frictional_heat_mJ_per_mm": heat.generated,
+        "heat_in_rubber_mJ_per_mm": heat.in_block,
+        "heat_in_road_mJ_per_mm": heat.in_road + heat.left,
+        "radiated_mJ_per_mm": heat.radiated,
+    }

@@ -1,0 +1,241 @@
+"""Run a case: build the model, press the block, slide it, and return the tables."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fem import newton
+from fem.audit import EnergyAudit, audited
+from fem.case import Case
+from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState
+from fem.elements import Q1P0Elements
+from fem.heat import HeatModel
+from fem.mechanics import BlockMechanics
+from fem.mesh import NAMED_GRADINGS, BlockMesh, Grading, block_mesh
+from fem.outcome import INTERRUPTED, OK, Outcome, failed
+from fem.programme import Phase, programme
+from fem.recorder import Recorder
+from fem.results import Result
+from fem.rigid_run import simulate_rigid
+from fem.step_control import StepController, landed
+
+
+@dataclass(frozen=True, kw_only=True)
+class Progress:
+    """How far a run is, for a progress display."""
+
+    sliding_distance_mm: float
+    T_max_C: float
+    newton_iterations: int
+
+
+def mesh_of(case: Case) -> BlockMesh:
+    """Block mesh of a case, its leading edge on the side of the motion."""
+    block = case.block
+    if isinstance(block.mesh, str):
+        grading = NAMED_GRADINGS[block.mesh]
+    else:
+        spec = block.mesh
+        grading = Grading(
+            cells_x=spec.cells_x, cells_y=spec.cells_y,
+            smallest_x=spec.smallest_x_mm, smallest_y=spec.smallest_y_mm,
+        )  # fmt: skip
+    direction = 1 if case.loading.velocity_mm_per_s > 0 else -1
+    return block_mesh(block.length_mm, block.height_mm, grading, direction)
+
+
+def coupled_model(case: Case) -> CoupledModel:
+    """Mechanics, heat and contact laws of a case."""
+    mesh, rubber, solver = mesh_of(case), case.rubber.model(), case.solver
+    force = case.loading.mean_pressure_N_per_mm2 * case.block.length_mm
+    mechanics = BlockMechanics(
+        mesh,
+        Q1P0Elements(mesh, rubber, case.rubber.bulk_modulus),
+        density=case.rubber.thermal.density if solver.inertia else 0.0,
+        viscosity=solver.viscous_time_s * rubber.initial_shear_modulus,
+        top=case.loading.top,
+        tolerance=solver.tolerance * force,
+    )
+    laws = ContactLaws(
+        friction=case.friction.law_object(),
+        partition=case.heat.partition_object(),
+        conductance=case.heat.conductance_object(),
+    )
+    return CoupledModel(
+        mechanics,
+        HeatModel.from_case(case, mesh),
+        laws,
+        mean_pressure=case.loading.mean_pressure_N_per_mm2,
+        friction_passes=solver.friction_passes,
+        options=newton.NewtonOptions(iterations_max=solver.newton_iterations_max),
+    )
+
+
+class _Run:
+    """State of a run between its steps: the accepted state, audit, records and counts."""
+
+    def __init__(self, case: Case, progress: Callable[[Progress], None] | None) -> None:
+        self.case, self.progress = case, progress
+        self.model = coupled_model(case)
+        self.recorder = Recorder(case, self.model)
+        self.state = self.model.initial_state()
+        self.audit = EnergyAudit()
+        self.iterations = self.rejected = 0
+        self.largest_energy_error = 0.0
+        self.log = [f"{case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
+                    f"{len(self.model.mechanics.mesh.cells)} elements"]  # fmt: skip
+        count = case.output.snapshots
+        self.snapshot_distances = list(np.linspace(0.0, case.loading.distance_mm, count + 1)[1:])
+
+    def run(self) -> Outcome:
+        """Go through all phases; the outcome says whether the end was reached."""
+        try:
+            for phase in programme(self.case):
+                outcome = self._phase(phase)
+                if outcome.status != OK:
+                    return outcome
+        except KeyboardInterrupt:
+            return Outcome(status=INTERRUPTED, reason="interrupted by the user")
+        return Outcome(status=OK)
+
+    def _phase(self, phase: Phase) -> Outcome:
+        control = StepController(step_max=phase.step_max, step_min=phase.step_min)
+        step, at = phase.step_initial, 0.0
+        while at < phase.end:
+            length = landed(at, step, phase.end)
+            stop = phase.end if length == phase.end - at else at + length
+            attempt = self.model.advance(self.state, phase.target(at, stop))
+            self.iterations += attempt.iterations
+            if isinstance(attempt, AcceptedStep):
+                at = stop
+                self._accept(attempt, phase, at)
+                step = max(control.accepted(length, attempt.iterations), min(step, length))
+                continue
+            self.rejected += 1
+            self.log.append(
+                f"{phase.name} {at:.6g}: step {length:.3g} rejected, {attempt.failure.value}"
+            )
+            step = control.rejected(length)
+            if control.exhausted(step):
+                unit = " mm" if phase.slides else " of the load"
+                return failed(attempt.failure, attempt.detail, f"{phase.name} {at:.4g}{unit}")
+        return Outcome(status=OK)
+
+    def _accept(self, step: AcceptedStep, phase: Phase, at: float) -> None:
+        self.audit = audited(self.audit, step, self.model.mechanics)
+        self.state = step.after
+        row = self.recorder.record(step, self.audit)
+        distance = at if phase.slides else 0.0
+        row["sliding_distance_mm"] = distance
+        while phase.slides and self.snapshot_distances and distance >= self.snapshot_distances[0]:
+            while self.snapshot_distances and distance >= self.snapshot_distances[0]:
+                self.snapshot_distances.pop(0)
+            self.recorder.snapshot(self.state, distance)
+        if self.progress is not None:
+            self.progress(
+                Progress(
+                    sliding_distance_mm=distance,
+                    T_max_C=row["T_max_C"],
+                    newton_iterations=self.iterations,
+                )
+            )
+
+
+def simulate(case: Case, *, progress: Callable[[Progress], None] | None = None) -> Result:
+    """Simulate the sliding tread block of a case.
+
+    Parameters
+    ----------
+    case : Case
+        The resolved case.
+    progress : callable, optional
+        Called with a `Progress` after each accepted step.
+
+    Returns
+    -------
+    Result
+        Tables, summary and snapshots. A run that could not finish has everything up to the last
+        accepted step and says why in its summary.
+    """
+    if case.block.rigid:
+        return simulate_rigid(case, progress)
+    start = time.perf_counter()
+    run = _Run(case, progress)
+    outcome = run.run()
+    recorder = run.recorder
+    distance = recorder.rows[-1]["sliding_distance_mm"] if recorder.rows else 0.0
+    if not recorder.snapshots or recorder.snapshots[-1].sliding_distance_mm < distance:
+        recorder.snapshot(run.state, distance)
+    summary = _summary(run, outcome, time.perf_counter() - start)
+    return Result.from_rows(
+        case,
+        recorder.geometry,
+        recorder.rows,
+        recorder.surface(run.state),
+        summary,
+        recorder.snapshots,
+        log=[*run.log, f"status: {outcome.status} {outcome.reason}".rstrip()],
+    )
+
+
+def _summary(run: _Run, outcome: Outcome, wall: float) -> dict[str, Any]:
+    """Scalars of a run; forces and lengths are means over the sliding phase at full speed."""
+    history = pd.DataFrame(run.recorder.rows)
+    mechanics, heat, case = run.model.mechanics, run.state.heat, run.case
+    summary: dict[str, Any] = {"status": outcome.status}
+    if outcome.reason:
+        summary |= {"reason": outcome.reason, "advice": outcome.advice}
+    summary |= _last(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
+    summary |= sliding_means(history, case.loading.velocity_mm_per_s)
+    made = heat.generated
+    summary |= {
+        "elements": len(mechanics.mesh.cells),
+        "dofs": mechanics.pattern.size + heat.T.size,
+        "steps": len(history),
+        "newton_iterations": run.iterations,
+        "wall_s": wall,
+        "energy_error": run.audit.error,
+        "heat_error": abs(heat.imbalance) / made if made > 0.0 else 0.0,
+        "regularisation_share": run.audit.regularisation_share,
+        "capped_heat_share": run.audit.capped_share,
+        "rejected_steps": run.rejected,
+        "friction_lag_error": _largest(history, "friction_lag_error"),
+        "min_J": run.recorder.smallest_J,
+        "solver_s": mechanics.solver.seconds,
+    }
+    return summary
+
+
+def _last(history: pd.DataFrame, columns: tuple[str, ...]) -> dict[str, float]:
+    return {c: float(history[c].iloc[-1]) if len(history) else float("nan") for c in columns}
+
+
+def _largest(history: pd.DataFrame, column: str) -> float:
+    return float(history[column].max()) if len(history) else float("nan")
+
+
+def sliding_means(history: pd.DataFrame, velocity: float) -> dict[str, float]:
+    """Means over the distance slid at full speed: force, coefficient, contact length, pressure."""
+    columns = (
+        "friction_force_N_per_mm",
+        "friction_coefficient",
+        "contact_length_mm",
+        "mean_contact_pressure_N_per_mm2",
+    )
+    if history.empty:
+        return dict.fromkeys(columns, float("nan"))
+    length = history["sliding_distance_mm"].diff().fillna(history["sliding_distance_mm"])
+    full = np.isclose(history["velocity_mm_per_s"], velocity, rtol=1e-6) & (length > 0.0)
+    chosen, weight = history[full], length[full]
+    if chosen.empty:
+        return {c: float(history[c].iloc[-1]) for c in columns}
+    return {c: float(np.average(chosen[c], weights=weight)) for c in columns}
+
+
+__all__ = ["CoupledState", "Progress", "coupled_model", "mesh_of", "simulate"]

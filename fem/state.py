@@ -1,0 +1,34 @@
+"""Accepted mechanical state of the block."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.active_set import ContactStatus
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MechanicalState:
+    """Accepted mechanical state, in the platen's frame.
+
+    Attributes
+    ----------
+    u : (n, 2) float array
+        Nodal displacements [mm].
+    velocity : (n, 2) float array
+        Absolute nodal velocities [mm/s].
+    p : (ne,) float array
+        Element pressures dU/dJ, positive in tension [N/mm^2].
+    status : ContactStatus
+        Status of the contact candidates.
+    """
+
+    u: FloatArray
+    velocity: FloatArray
+    p: FloatArray
+    status: ContactStatus
