@@ -1,0 +1,38 @@
+"""The paper's figures by number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from validation import fig7, fig8
+
+#: Number of the figure to the function that draws it into a folder and returns the picture's path.
+#: Figures 1 and 5 of the paper are a sketch and photographs.
+FIGURES: dict[int, Callable[[Path], Path]] = {
+    7: fig7.make,
+    8: fig8.make,
+}
+
+
+def make_figure(number: int, directory: str | Path) -> Path:
+    """Draw a figure of the paper, with a CSV of what it shows beside it.
+
+    Parameters
+    ----------
+    number : int
+        One of `FIGURES`.
+    directory : str or Path
+        Folder of the picture; made if it does not exist.
+
+    Returns
+    -------
+    Path
+        The PNG.
+    """
+    if number not in FIGURES:
+        known = ", ".join(map(str, sorted(FIGURES)))
+        raise ValueError(f"figure {number} is not among those that can be made: {known}")
+    folder = Path(directory)
+    folder.mkdir(parents=True, exist_ok=True)
+    return FIGURES[number](folder)
