@@ -165,7 +165,8 @@ def draw_panel(
 def colour_bar(
     figure: Figure, axes: Axes, field: ScalarMappable, label: str, *, extend: str = "neither"
 ) -> None:
-    """Put a colour bar to the right of a panel."""
-    bar = figure.colorbar(field, ax=axes, label=label, extend=extend, aspect=14, pad=0.02)
+    """Put a colour bar as high as the panel to its right."""
+    place = axes.inset_axes((1.025, 0.0, 0.028, 1.0))
+    bar = figure.colorbar(field, cax=place, label=label, extend=extend, extendfrac=0.06)
     bar.outline.set_linewidth(0.5)  # type: ignore[operator]
     bar.ax.locator_params(nbins=6)

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import ConnectionPatch, Rectangle
 
 from fem.case import Case
-from fem.case_mesh import case_mesh
 from fem.mesh import BlockMesh
+from fem.simulate import mesh_of
 from validation.block_drawing import (
     Window,
     draw_mesh,
@@ -41,7 +41,7 @@ _THIN_ARROW = {"arrowstyle": "-|>", "lw": 0.8, "mutation_scale": 7, "shrinkA": 0
 def make(directory: Path) -> Path:
     """Draw figure 7 and write the node coordinates beside it."""
     case = introductory_case()
-    mesh = case_mesh(case)
+    mesh = mesh_of(case)
     nodes = pd.DataFrame(mesh.points, columns=["X_mm", "Y_mm"])
     nodes.to_csv(directory / "fig7.csv", index_label="node", lineterminator="\n")
     return save(draw(case, mesh), directory / "fig7.png")

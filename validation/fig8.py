@@ -21,7 +21,9 @@ from validation.introductory import introductory_run
 from validation.style import PAGE_WIDTH, new_figure, save, styled
 
 #: Height over width of the details.
-DETAIL_ASPECT = 0.62
+DETAIL_ASPECT = 0.66
+#: Widths of the columns, such that both panels of a row are about equally high.
+WIDTHS = (1.6, 1.0)
 SHOWN = ("time_s", "sliding_distance_mm", "friction_coefficient", "T_max_C", "T_edge_C")
 
 
@@ -47,8 +49,8 @@ def last_state(result: Result) -> BlockState:
 def draw(result: Result) -> Figure:
     """Draw mesh, temperature and stress, each with its detail, and the history below."""
     state = last_state(result)
-    figure = new_figure(PAGE_WIDTH, 222.0)
-    rows = figure.subplots(4, 2, width_ratios=[1.42, 1.0], height_ratios=[1.0, 1.0, 1.0, 0.9])
+    figure = new_figure(PAGE_WIDTH, 198.0)
+    rows = figure.subplots(4, 2, width_ratios=WIDTHS, height_ratios=[1.0, 1.0, 1.0, 0.95])
     loading = result.case.loading
     figure.suptitle(
         f"Sliding distance {abs(state.snapshot.sliding_distance_mm):.4g} mm,  "
@@ -86,4 +88,4 @@ def _draw_history(row: list[Axes], result: Result) -> None:
     draw_friction(left, result.history)
     left.set_title("(d) Friction coefficient")
     draw_temperature(right, result.history)
-    right.set_title("(e) Temperature of the bottom surface")
+    right.set_title("(e) Bottom temperature")

@@ -34,8 +34,8 @@ GREY = "#707070"
 ROAD_GREY = "#D8D4CE"
 RUBBER_GREY = "#E9EEF3"
 
-#: Even in lightness, readable in print and by colour-blind readers.
-TEMPERATURE_MAP = "inferno"
+#: Even in lightness, readable in print and by colour-blind readers; cold rubber stays light.
+TEMPERATURE_MAP = "YlOrRd"
 STRESS_MAP = "viridis"
 
 RC: dict[str, Any] = {
