@@ -25,7 +25,8 @@ def test_huemer_peak_is_at_26_5_mm_per_s():
     law = HuemerFriction()
     assert law.peak_velocity == pytest.approx(26.5, abs=0.05)
     around = law.coefficient(0.3, law.peak_velocity * np.array([0.99, 1.0, 1.01]))
-    assert around[1] > around[0] and around[1] > around[2]
+    assert around[1] > around[0]
+    assert around[1] > around[2]
     assert law.evaluate(0.3, law.peak_velocity).dmu_dv == pytest.approx(0.0, abs=1e-12)
 
 
@@ -48,7 +49,8 @@ def test_below_the_floors_the_coefficient_stays_and_its_derivative_is_zero(name)
     p, v = np.array([-0.1, 0.0, 5e-4, 1e-3]), np.array([0.0, 0.3, 0.9, 1.0])
     result = law.evaluate(p, v)
     np.testing.assert_allclose(result.mu, law.coefficient(1e-3, 1.0), rtol=1e-15)
-    assert not np.any(result.dmu_dp) and not np.any(result.dmu_dv)
+    assert not np.any(result.dmu_dp)
+    assert not np.any(result.dmu_dv)
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -88,7 +90,8 @@ def test_temperature_shifts_the_velocity_and_gives_its_derivative():
 
 def test_a_hot_surface_that_acts_below_the_floor_has_no_temperature_slope():
     result = ThermalFriction(law=HuemerFriction(), wlf=WLF()).evaluate(0.3, 50.0, 80.0)
-    assert result.dmu_dT == 0.0 and result.mu == HuemerFriction().coefficient(0.3, 0.0)
+    assert result.dmu_dT == 0.0
+    assert result.mu == HuemerFriction().coefficient(0.3, 0.0)
 
 
 def test_without_wlf_temperature_does_not_matter():

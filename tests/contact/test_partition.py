@@ -24,7 +24,7 @@ def test_no_heat_at_all_is_allowed():
 
 
 def test_wrong_parameters_are_refused():
-    with pytest.raises(ValueError, match="cap is 1.2; expected a number from 0 to 1"):
+    with pytest.raises(ValueError, match=r"cap is 1.2; expected a number from 0 to 1"):
         HeatPartition(cap=1.2)
-    with pytest.raises(ValueError, match="prefactor is -0.3; expected zero or more"):
+    with pytest.raises(ValueError, match=r"prefactor is -0.3; expected zero or more"):
         HeatPartition(prefactor=-0.3)

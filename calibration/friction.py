@@ -1,0 +1,380 @@
+"""Fit of friction laws to measured coefficients.
+
+The law of Huemer has a redundancy: multiplying alpha, beta, a, b, c by one number leaves mu as it
+is. The fit holds ``a`` at the value of the paper's Table 2, 0.9203, so that the other six parameters
+are unique and come out in the paper's scale.
+
+References
+----------
+.. [1] Hofstetter, K. et al., "Efficient treatment of rubber friction problems in industrial
+   applications", eqs. (5)-(8), Table 2.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from calibration.errors import DataError
+from calibration.fit_core import FitResult, Loss, Problem, fit
+from calibration.provenance import version
+from calibration.tables import ABSOLUTE_ZERO_C, Table, read_table
+from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction, shifted
+from materials.wlf import WLF
+
+Array = NDArray[np.float64]
+
+COLUMNS = ("p_N_per_mm2", "v_mm_per_s", "mu")
+HUEMER_SCALE = 0.9203  # Table 2's a, the normalisation of the fit
+_LN10 = float(np.log(10.0))
+
+
+class _Law(ABC):
+    """A friction law as a curve of its parameters, at pressures p and (shifted) speeds v."""
+
+    names: tuple[str, ...]
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+    held: dict[str, float] = {}  # noqa: RUF012
+
+    @abstractmethod
+    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+        """mu (n,), its derivatives (n, k) by the parameters, and its derivative by ln v (n,)."""
+
+    @abstractmethod
+    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+        """Starting points (count, k)."""
+
+    @abstractmethod
+    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
+        """The law with the parameters."""
+
+
+class _Exponential(_Law):
+    names = ("A", "B", "C")
+    lower = (1e-9, -5.0, -5.0)
+    upper = (np.inf, 5.0, 5.0)
+
+    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+        A, B, C = theta
+        shape = p**B * v**C
+        mu = A * shape
+        return mu, np.stack([shape, mu * np.log(p), mu * np.log(v)], axis=1), C * mu
+
+    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+        known = mu > 0.0
+        columns = np.stack([np.ones(known.sum()), np.log(p[known]), np.log(v[known])], axis=1)
+        lnA, B, C = np.linalg.lstsq(columns, np.log(mu[known]), rcond=None)[0]
+        return np.array([[np.exp(lnA), B, C]])
+
+    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
+        return ExponentialFriction(**values, **floors)
+
+
+class _Huemer(_Law):
+    """The starts spread n and 1/m; for given ones the law is a linear problem in the others."""
+
+    names = ("alpha", "beta", "n", "inverse_m", "a", "b", "c")
+    lower = (0.0, -np.inf, -1.0, 0.01, 1e-9, -np.inf, 0.0)
+    upper = (np.inf, np.inf, 3.0, 2.0, np.inf, np.inf, np.inf)
+    held = {"a": HUEMER_SCALE}  # noqa: RUF012
+
+    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+        alpha, beta, n, inverse_m, a, b, c = theta
+        log_p, log_v = np.log(p), np.log(v)
+        s = np.exp(-inverse_m * log_v)
+        power = np.exp((n - 1.0) * log_p)
+        inverse = 1.0 / (a + s * (b + s * c))
+        mu = (alpha * power + beta) * inverse
+        fall = -mu * inverse
+        by_s = fall * (b + 2.0 * c * s) * s
+        J = np.stack(
+            [power * inverse, inverse, alpha * power * log_p * inverse, -by_s * log_v,
+             fall, fall * s, fall * s * s], axis=1,
+        )  # fmt: skip
+        return mu, J, -inverse_m * by_s
+
+    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+        a = HUEMER_SCALE
+        spread = max(2, round(np.sqrt(count)))
+        points = []
+        for n in np.linspace(0.2, 1.8, 2 * (spread // 2)):
+            for inverse_m in np.geomspace(0.05, 0.8, -(-count // spread)):
+                s = v**-inverse_m
+                columns = np.stack([p ** (n - 1.0), np.ones_like(p), -mu * s, -mu * s * s], axis=1)
+                alpha, beta, b, c = np.linalg.lstsq(columns, a * mu, rcond=None)[0]
+                if c <= 0.0 or b * b >= 4.0 * a * c:
+                    b, c = -0.9 * a, 0.8 * a
+                points.append([max(alpha, 0.01), beta, n, inverse_m, a, b, c])
+        return np.array(points)
+
+    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
+        return HuemerFriction(**values, **floors)
+
+
+LAWS: dict[str, _Law] = {"exponential": _Exponential(), "huemer": _Huemer()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrictionData:
+    """Measured friction coefficients.
+
+    Parameters
+    ----------
+    p, v, mu : ndarray, shape (n,)
+        Pressure [N/mm^2], speed [mm/s], coefficient [-].
+    T : ndarray or None
+        Temperature of the rubber's surface [deg C].
+    table : Table
+    """
+
+    p: Array
+    v: Array
+    mu: Array
+    T: Array | None
+    table: Table
+
+
+def read_friction(table: pd.DataFrame | str | Path | FrictionData) -> FrictionData:
+    """Read and check a friction table."""
+    if isinstance(table, FrictionData):
+        return table
+    source = read_table(table, COLUMNS)
+    p, v, mu = (source.numbers(column) for column in COLUMNS)
+    source.require_all("p_N_per_mm2", p > 0.0, "a pressure above 0 N/mm^2")
+    source.require_all("v_mm_per_s", v > 0.0, "a sliding speed above 0 mm/s")
+    source.require_all("mu", mu >= 0.0, "a friction coefficient of 0 or more")
+    source.require_all("mu", mu < 10.0, "a friction coefficient below 10 (a ratio, not percent)")
+    if not np.any(mu):
+        source.refuse_at(0, "mu", "zero in every row", "friction coefficients, not all zero")
+    T = read_temperature(source) if source.has("T_C") else None
+    return FrictionData(p=p, v=v, mu=mu, T=T, table=source)
+
+
+def read_temperature(source: Table, column: str = "T_C") -> Array:
+    """Temperatures of a column [deg C], refused at or below absolute zero."""
+    T = source.numbers(column)
+    expected = f"a temperature above absolute zero, {ABSOLUTE_ZERO_C} deg C"
+    source.require_all(column, T > ABSOLUTE_ZERO_C, expected)
+    return T
+
+
+def fit_friction(
+    table: pd.DataFrame | str | Path | FrictionData,
+    law: str = "huemer",
+    *,
+    wlf: WLF | Literal["fit"] | None = None,
+    T_ref_C: float = 20.0,
+    fixed: Mapping[str, float] | None = None,
+    starts: int = 20,
+    loss: Loss = "linear",
+    noise: float = 0.05,
+) -> FitResult:
+    """Fit a friction law to measured coefficients.
+
+    Parameters
+    ----------
+    table : DataFrame or path of a CSV file
+        Columns ``p_N_per_mm2``, ``v_mm_per_s``, ``mu`` and optionally ``T_C``.
+    law : {"huemer", "exponential"}
+    wlf : WLF, "fit" or None
+        Shift of the speed by the temperature: given, fitted together with the law (needs
+        ``T_C`` at several temperatures), or none.
+    T_ref_C : float
+        Reference temperature of the shift [deg C].
+    fixed : mapping, optional
+        Parameters to hold. Without it Huemer's ``a`` is held at 0.9203 (the redundancy of scale).
+    starts : int
+        Number of starting points.
+    loss, noise
+        Robust loss and the residual of mu where it begins to act [-].
+
+    Returns
+    -------
+    FitResult
+        ``values`` by the names of the law (and d1, d2_K), ``model`` a ThermalFriction.
+    """
+    if law not in LAWS:
+        raise ValueError(f"law is {law!r}; expected one of {', '.join(LAWS)}")
+    data, form = read_friction(table), LAWS[law]
+    held = dict(form.held if fixed is None else fixed)
+    if law == "huemer":
+        held = {**({} if set(held) & set("abc") else form.held), **held}
+    _require_data(data, form, law, wlf, held)
+    fit_shift = wlf == "fit"
+    problem = _problem(form, data, wlf, T_ref_C)
+    result = fit(
+        problem, _starts(form, data, wlf, T_ref_C, starts), fixed=held, loss=loss, noise=noise
+    )
+    shift = _wlf_of(result.values) if fit_shift else wlf
+    return _completed(result, law, form, data, shift if isinstance(shift, WLF) else None, T_ref_C)
+
+
+def _require_data(
+    data: FrictionData, form: _Law, law: str, wlf: Any, held: Mapping[str, float]
+) -> None:
+    names = (*form.names, "d1", "d2_K") if wlf == "fit" else form.names
+    free = sum(name not in held for name in names)
+    data.table.require_rows(free, f"the {free} free parameters of {law}")
+    if wlf is None:
+        return
+    if data.T is None:
+        data.table.require(("T_C",))
+    elif wlf == "fit" and np.unique(data.T).size < 2:
+        data.table.refuse(
+            column="T_C", found="one temperature", expected="two or more to fit the WLF shift to"
+        )
+
+
+def _problem(form: _Law, data: FrictionData, wlf: Any, T_ref_C: float) -> Problem:
+    common: dict[str, Any] = {"observed": data.mu}
+    if wlf != "fit":
+        v = _shifted_speed(data, wlf, T_ref_C)
+        return Problem(
+            names=form.names,
+            predict=lambda theta: form.curve(theta, data.p, v)[0],
+            jacobian=lambda theta: form.curve(theta, data.p, v)[1],
+            lower=np.array(form.lower),
+            upper=np.array(form.upper),
+            **common,
+        )
+    assert data.T is not None
+    dT = data.T - T_ref_C
+    k = len(form.names)
+
+    def curve(theta: Array) -> tuple[Array, Array]:
+        d1, d2 = theta[k:]
+        reached = d2 + dT
+        v = data.v * 10.0 ** (-d1 * dT / reached)
+        mu, J, by_log_v = form.curve(theta[:k], data.p, v)
+        by_d1 = -_LN10 * dT / reached * by_log_v
+        by_d2 = _LN10 * d1 * dT / reached**2 * by_log_v
+        return mu, np.column_stack([J, by_d1, by_d2])
+
+    pole = max(float(-dT.min()), 0.0) + 5.0  # keeps every temperature 5 K above the pole
+    return Problem(
+        names=(*form.names, "d1", "d2_K"),
+        predict=lambda theta: curve(theta)[0],
+        jacobian=lambda theta: curve(theta)[1],
+        lower=np.array([*form.lower, 1e-3, pole]),
+        upper=np.array([*form.upper, 1e3, 1e4]),
+        **common,
+    )
+
+
+def _shifted_speed(data: FrictionData, wlf: WLF | None, T_ref_C: float) -> Array:
+    if wlf is None or data.T is None:
+        return data.v
+    return wlf.equivalent_velocity(data.v, data.T, T_ref_C)
+
+
+def _starts(form: _Law, data: FrictionData, wlf: Any, T_ref_C: float, count: int) -> Array:
+    if wlf != "fit":
+        return form.starts(data.p, _shifted_speed(data, wlf, T_ref_C), data.mu, count)
+    points = []
+    for d2 in (60.0, 200.0, 600.0):
+        for decades_per_kelvin in (0.02, 0.06, 0.15):
+            shift = WLF(d1=decades_per_kelvin * d2, d2_K=d2 + max(T_ref_C - data_min(data), 0.0))
+            v = _shifted_speed(data, shift, T_ref_C)
+            law = form.starts(data.p, v, data.mu, max(4, count // 4))
+            points.append(np.column_stack([law, np.tile([shift.d1, shift.d2_K], (len(law), 1))]))
+    return np.concatenate(points)
+
+
+def data_min(data: FrictionData) -> float:
+    """Lowest temperature of the data [deg C]; infinite without temperatures."""
+    return float("inf") if data.T is None else float(data.T.min())
+
+
+def _wlf_of(values: Mapping[str, float]) -> WLF:
+    return WLF(d1=values["d1"], d2_K=values["d2_K"])
+
+
+def _completed(
+    result: FitResult,
+    law: str,
+    form: _Law,
+    data: FrictionData,
+    wlf: WLF | None,
+    T_ref_C: float,
+) -> FitResult:
+    own = {name: result.values[name] for name in form.names}
+    speed = _shifted_speed(data, wlf, T_ref_C)
+    floors = _floors(data, speed)
+    try:
+        friction = shifted(form.build(own, **floors), wlf, T_ref_C)
+    except ValueError as error:
+        raise DataError(
+            file=data.table.file,
+            found=f"data whose best {law} fit is no admissible law ({error})",
+            expected="friction over a wider range of speed and pressure, or another law",
+        ) from None
+    section: dict[str, Any] = {"law": law, **own, "wlf": wlf is not None}
+    if wlf is not None:
+        section.update(d1=wlf.d1, d2_K=wlf.d2_K, T_ref_C=float(T_ref_C))
+    section.update(p_min_N_per_mm2=floors["p_min"], v_min_mm_per_s=floors["v_min"])
+    metadata = {
+        "kind": "friction",
+        "model": law,
+        "data_file": data.table.file,
+        "data_sha256": data.table.sha256,
+        "pressure_window_N_per_mm2": [float(data.p.min()), float(data.p.max())],
+        "velocity_window_mm_per_s": [float(speed.min()), float(speed.max())],
+        "normalisation": f"a = {own['a']:g}" if law == "huemer" else "none needed",
+        "version": version(),
+    }
+    return replace(
+        result,
+        model=friction,
+        metadata=metadata,
+        section={"friction": section},
+        warnings=(*result.warnings, *_data_warnings(data, wlf)),
+    )
+
+
+def _floors(data: FrictionData, speed: Array) -> dict[str, float]:
+    """Floors of the law: the usual ones, or lower where the data reach below them."""
+    return {"p_min": min(1e-3, float(data.p.min())), "v_min": min(1.0, float(speed.min()))}
+
+
+def _data_warnings(data: FrictionData, wlf: WLF | None) -> tuple[str, ...]:
+    if wlf is None and data.T is not None and np.ptp(data.T) > 5.0:
+        span = f"{data.T.min():g} to {data.T.max():g} deg C"
+        return (f"the data span {span}, but no WLF shift takes part in the fit",)
+    return ()
+
+
+def compare_laws(
+    table: pd.DataFrame | str | Path | FrictionData,
+    laws: tuple[str, ...] = tuple(LAWS),
+    **options: Any,
+) -> pd.DataFrame:
+    """Fit several laws to the same data.
+
+    Returns
+    -------
+    DataFrame
+        ``law, parameters, n_data, rmse, r2, aic, mu_largest_difference`` (the largest difference
+        between the law's curve and the best law's curve over the data), best AIC first.
+    """
+    data = read_friction(table)
+    found = {law: fit_friction(data, law, **options) for law in laws}
+    best = min(found.values(), key=lambda result: result.aic)
+    rows = [
+        {
+            "law": law,
+            "parameters": len(result.names),
+            "n_data": result.n_data,
+            "rmse": result.rmse,
+            "r2": result.r2,
+            "aic": result.aic,
+            "mu_largest_difference": float(np.abs(result.predicted - best.predicted).max()),
+        }
+        for law, result in found.items()
+    ]
+    return pd.DataFrame(rows).sort_values("aic").reset_index(drop=True)

@@ -1,0 +1,157 @@
+"""Stability of a fitted incompressible energy: Drucker's criterion and ellipticity.
+
+With ``e1, e2`` the logarithmic principal stretches and ``e3 = -e1 - e2``, the energy is a function
+``W(e1, e2)``. Drucker's criterion asks that every increment of strain meets an increment of stress
+that does positive work on it, i.e. that the Hessian of W is positive definite. Ellipticity in plane
+strain asks that the shear stress keeps rising with the amount of shear ``k = lam - 1/lam``:
+``d tau/dk > 0`` with ``tau = dW/dk`` on the path ``lam, 1/lam, 1`` [2]_; where it is lost, a finite
+element solution localises.
+
+References
+----------
+.. [1] Drucker, D. C., J. Appl. Mech. 26 (1959) 101-106.
+.. [2] Abeyaratne, R., J. Elasticity 10 (1980) 255-293.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from calibration.ogden import Ogden
+from materials.hyperelastic import MODES, Hyperelastic
+
+Array = NDArray[np.float64]
+Energy = Hyperelastic | Ogden
+
+SCAN = (0.1, 20.0)  # stretches between which an end of stability is looked for
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stability:
+    """Range of stretch, around 1, in which the energy is stable.
+
+    Parameters
+    ----------
+    drucker : dict
+        Lowest and highest stable stretch by mode; 0 and infinity where no end was found.
+    ellipticity : tuple of float
+        The same for ellipticity in plane strain.
+    window : dict
+        Lowest and highest stretch of the data by mode.
+    """
+
+    drucker: dict[str, tuple[float, float]]
+    ellipticity: tuple[float, float]
+    window: dict[str, tuple[float, float]]
+
+    @property
+    def stable(self) -> bool:
+        """Whether the energy is stable over the whole window of the data."""
+        return not self.warnings
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """One sentence for every end of stability inside the window of the data."""
+        found = []
+        for mode, (low, high) in self.window.items():
+            ends = {f"{mode}": self.drucker[mode]}
+            found += _inside(ends, low, high, "is not stable (Drucker)")
+        if self.window:
+            low = min(low for low, _ in self.window.values())
+            high = max(high for _, high in self.window.values())
+            found += _inside({"plane strain": self.ellipticity}, low, high, "loses ellipticity")
+        return tuple(found)
+
+
+def _inside(ends: dict[str, tuple[float, float]], low: float, high: float, what: str) -> list[str]:
+    sentences = []
+    for name, (first, last) in ends.items():
+        if low < first:
+            sentences.append(f"{name}: the energy {what} below the stretch {first:.4g}")
+        if high > last:
+            sentences.append(f"{name}: the energy {what} above the stretch {last:.4g}")
+    return sentences
+
+
+def log_derivatives(model: Energy, e1: Array, e2: Array) -> tuple[Array, Array]:
+    """Gradient (n, 2) and Hessian (n, 2, 2) of W [N/mm^2] in the logarithmic stretches (n,)."""
+    if isinstance(model, Ogden):
+        return model.log_derivatives(e1, e2)
+    c1, c2 = model.mixture
+    e = np.stack([e1, e2, -e1 - e2])
+    squares, inverse = np.exp(2.0 * e), np.exp(-2.0 * e)
+    s = c1 * squares.sum(axis=0) + c2 * inverse.sum(axis=0)
+    slopes = 2.0 * (c1 * squares - c2 * inverse)
+    bends = 4.0 * (c1 * squares + c2 * inverse)
+    with np.errstate(all="ignore"):
+        _, w1, w2 = model.energy(s)
+    s_i = np.stack([slopes[0] - slopes[2], slopes[1] - slopes[2]], axis=1)
+    s_ij = np.empty((e1.size, 2, 2))
+    s_ij[:, 0, 0], s_ij[:, 1, 1] = bends[0] + bends[2], bends[1] + bends[2]
+    s_ij[:, 0, 1] = s_ij[:, 1, 0] = bends[2]
+    w1, w2 = np.broadcast_to(w1, s.shape), np.broadcast_to(w2, s.shape)
+    gradient = w1[:, None] * s_i
+    hessian = w2[:, None, None] * s_i[:, :, None] * s_i[:, None, :] + w1[:, None, None] * s_ij
+    return gradient, hessian
+
+
+def drucker_margin(model: Energy, stretch: Array, mode: str) -> Array:
+    """Smaller eigenvalue of the Hessian over the shear modulus [-]; negative where unstable."""
+    e = np.log(stretch)
+    transverse = {"uniaxial": -0.5 * e, "equibiaxial": e, "planar": np.zeros_like(e)}[mode]
+    _, H = log_derivatives(model, e, transverse)
+    mean = 0.5 * (H[:, 0, 0] + H[:, 1, 1])
+    spread = np.hypot(0.5 * (H[:, 0, 0] - H[:, 1, 1]), H[:, 0, 1])
+    return np.asarray((mean - spread) / model.initial_shear_modulus)
+
+
+def ellipticity_margin(model: Energy, stretch: Array) -> Array:
+    """Slope ``d tau/dk`` over the shear modulus [-] in plane strain; negative where unstable."""
+    e = np.log(stretch)
+    gradient, H = log_derivatives(model, e, -e)
+    W_e = gradient[:, 0] - gradient[:, 1]
+    W_ee = H[:, 0, 0] - 2.0 * H[:, 0, 1] + H[:, 1, 1]
+    k_e = 2.0 * np.cosh(e)
+    tau = W_e / k_e
+    return np.asarray((W_ee - tau * 2.0 * np.sinh(e)) / k_e**2 / model.initial_shear_modulus)
+
+
+def check_stability(model: Energy, window: dict[str, tuple[float, float]]) -> Stability:
+    """Find where the energy loses stability, in every mode and in plane strain.
+
+    Parameters
+    ----------
+    model : Hyperelastic or Ogden
+    window : dict
+        Lowest and highest stretch of the data by mode.
+    """
+    drucker = {
+        mode: _stable_range(lambda lam, mode=mode: drucker_margin(model, lam, mode))  # type: ignore[misc]
+        for mode in MODES
+    }
+    ellipticity = _stable_range(lambda lam: ellipticity_margin(model, lam))
+    return Stability(drucker=drucker, ellipticity=ellipticity, window=dict(window))
+
+
+def _stable_range(margin: Callable[[Array], Array]) -> tuple[float, float]:
+    down = _first_end(margin, np.geomspace(1.0, SCAN[0], 600))
+    up = _first_end(margin, np.geomspace(1.0, SCAN[1], 600))
+    return (0.0 if down is None else down), (np.inf if up is None else up)
+
+
+def _first_end(margin: Callable[[Array], Array], stretch: Array) -> float | None:
+    values = margin(stretch)
+    locked = np.flatnonzero(~np.isfinite(values))
+    if locked.size:  # beyond the locking stretch there is no state to be unstable
+        values, stretch = values[: locked[0]], stretch[: locked[0]]
+    bad = np.flatnonzero(values <= 0.0)
+    if not bad.size:
+        return None
+    i = int(bad[0])
+    if i == 0:
+        return float(stretch[0])
+    inner, outer = float(stretch[i - 1]), float(stretch[i])
+    return float(brentq(lambda lam: float(margin(np.array([lam]))[0]), inner, outer, xtol=1e-10))
