@@ -46,13 +46,14 @@ def interior_peak(X_mm: ArrayLike, T_C: ArrayLike) -> InteriorPeak:
     The paper (section 5.2) takes the peak "in the interior of this surface" and does not consider
     potential peaks at the front edge, without saying where the interior begins. The rule here:
 
-    1. A *front-edge peak* is a highest point of the leading fifth of the profile that stands out
-       from what lies between it and the interior maximum by more than 4 % of the profile's span.
-    2. Going back from its top, the profile falls to a *valley*: the lowest point before it rises
-       by more than 4 % of the span again. The interior is everything behind the valley.
-    3. A peak without a valley in the leading two fifths (it runs out into a plateau, or the
-       profile falls all the way) takes the leading fifth with it: the interior is the rest.
-    4. Without a front-edge peak the interior is the whole surface.
+    1. A *valley* is a point of the leading two fifths of the surface that lies more than 4 % of
+       the profile's span below the highest point on either side of it, the one towards the front
+       being in the leading fifth. That one is the *front-edge peak*.
+    2. The interior is everything behind the deepest valley.
+    3. Without a valley, the leading fifth may still rise by more than 4 % of the span above what
+       lies behind it (a peak that runs out into a plateau, a profile that rises to the front). The
+       interior then ends where the leading fifth begins.
+    4. Otherwise there is no front-edge peak, and the interior is the whole surface.
 
     Parameters
     ----------
@@ -69,13 +70,13 @@ def interior_peak(X_mm: ArrayLike, T_C: ArrayLike) -> InteriorPeak:
     from_front = (X[-1] - X) / (X[-1] - X[0])
     zone = int(np.argmax(from_front <= EDGE_ZONE))
     significant = SIGNIFICANT_SHARE * float(np.ptp(T))
-    edge = zone + int(np.argmax(T[zone:]))
-    if not _stands_out(T, zone, edge, significant):
-        peak = int(np.argmax(T))
-        return InteriorPeak(float(T[peak]), float(T[-1]), float(X[peak]))
-    start = int(np.argmax(from_front <= VALLEY_ZONE))
-    valley = _valley(T, start, edge, significant)
-    last = max(zone - 1, 0) if valley is None else valley
+    valley = _valley(T, from_front, zone, significant)
+    if valley is not None:
+        last, edge = valley, valley + int(np.argmax(T[valley:]))
+    elif _front_rises(T, zone, significant):
+        last, edge = max(zone - 1, 0), zone + int(np.argmax(T[zone:]))
+    else:
+        last = edge = T.size - 1
     peak = int(np.argmax(T[: last + 1]))
     return InteriorPeak(float(T[peak]), float(T[edge]), float(X[peak]))
 
@@ -101,23 +102,24 @@ def excess_area(X_mm: ArrayLike, T_C: ArrayLike, T_0_C: float) -> float:
     return float(np.trapezoid(T - T_0_C, X))
 
 
-def _stands_out(T: FloatArray, zone: int, edge: int, significant: float) -> bool:
-    """Whether the highest point of the edge zone is a peak of its own."""
-    if edge == 0 or np.ptp(T) == 0.0:
+def _valley(T: FloatArray, from_front: FloatArray, zone: int, significant: float) -> int | None:
+    """Index of the deepest valley behind a front-edge peak, if there is one."""
+    behind = np.maximum.accumulate(T)
+    ahead = np.maximum.accumulate(T[::-1])[::-1]
+    # Where the highest point ahead is not in the leading fifth, it is an interior peak.
+    peak_in_zone = ahead == ahead[zone]
+    peak_in_zone[zone:] = True
+    rises = np.minimum(behind, ahead) - T > significant
+    candidates = np.flatnonzero(rises & peak_in_zone & (from_front <= VALLEY_ZONE))
+    return int(candidates[np.argmin(T[candidates])]) if candidates.size else None
+
+
+def _front_rises(T: FloatArray, zone: int, significant: float) -> bool:
+    """Whether the leading fifth rises above the lowest point between it and the interior peak."""
+    if zone == 0:
         return False
-    interior = int(np.argmax(T[: max(zone, 1)]))
+    interior, edge = int(np.argmax(T[:zone])), zone + int(np.argmax(T[zone:]))
     return bool(T[edge] - T[interior : edge + 1].min() > significant)
-
-
-def _valley(T: FloatArray, start: int, edge: int, significant: float) -> int | None:
-    """Index of the lowest point behind the edge peak before the profile rises again."""
-    backwards = T[: edge + 1][::-1]
-    rise = backwards - np.minimum.accumulate(backwards)
-    if not np.any(rise > significant):
-        return None
-    end = int(np.argmax(rise > significant))
-    valley = edge - int(np.argmin(backwards[: end + 1]))
-    return valley if valley >= start else None
 
 
 def _profile(X_mm: ArrayLike, T_C: ArrayLike) -> tuple[FloatArray, FloatArray]:

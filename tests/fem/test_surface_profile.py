@@ -75,6 +75,27 @@ def test_interior_maximum_inside_the_leading_fifth_is_kept_when_a_valley_follows
     assert interior_peak(X, profile).T_max_C == pytest.approx(45.0)
 
 
+def test_low_edge_peak_beside_a_hotter_flank_of_the_interior_is_found():
+    # As in the first millimetres of a slide: the interior reaches into the leading fifth.
+    profile = np.interp(X, [0, 4, 6, 18.2, 19.2, 19.6, 20], [20, 21, 32, 30.7, 25, 29, 26.5])
+    found = interior_peak(X, profile)
+    assert found.T_max_C == 32.0
+    assert found.T_edge_C == pytest.approx(29.0, abs=0.1)
+
+
+@pytest.mark.parametrize("peaks", [(90.0, 100.0), (100.0, 90.0)])
+def test_front_edge_with_two_peaks_is_left_out_as_a_whole(peaks):
+    profile = np.interp(X, [0, 3, 14, 16, 18.5, 19.2, 20], [25, 44, 45, 30, peaks[0], 60, peaks[1]])
+    found = interior_peak(X, profile)
+    assert found.T_max_C == pytest.approx(45.0)
+    assert found.T_edge_C == 100.0
+
+
+def test_two_interior_humps_are_no_front_edge_peak():
+    profile = np.interp(X, [0, 5, 12.5, 15, 20], [25, 44, 38, 47, 21])
+    assert interior_peak(X, profile) == (47.0, 21.0, 15.0)
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_measuring_noise_shifts_the_maximum_by_no_more_than_the_noise(seed):
     noise = np.random.default_rng(seed).normal(0.0, 0.4, X.size)
