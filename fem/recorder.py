@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from fem.audit import EnergyAudit
 from fem.case import Case
@@ -14,6 +15,8 @@ from fem.mechanics import platen_displacement
 from fem.mesh import BlockMesh
 from fem.snapshot import BlockGeometry, Snapshot
 from fem.surface_profile import excess_area, interior_peak
+
+FloatArray = NDArray[np.float64]
 
 
 class Recorder:
@@ -48,7 +51,7 @@ class Recorder:
         assert step.evaluation.elements is not None
         self.smallest_J = min(self.smallest_J, float(step.evaluation.elements.kinematics.J.min()))
         row = self._contact_columns(step)
-        row |= temperature_columns(self.mesh, step.after, self.case.heat.ambient_C)
+        row |= temperature_columns(self.mesh, step.after.heat.T, self.case.heat.ambient_C)
         row |= {"newton_iterations": step.iterations}
         row |= energy_columns(audit, step.after)
         row |= {"friction_lag_error": step.lag_error}
@@ -119,9 +122,9 @@ class Recorder:
         )
 
 
-def temperature_columns(mesh: BlockMesh, state: CoupledState, ambient_C: float) -> dict[str, float]:
-    """T_max, T_edge and A_T of the bottom surface."""
-    X, T = mesh.bottom_coordinate, state.heat.T[mesh.bottom]
+def temperature_columns(mesh: BlockMesh, T_C: FloatArray, ambient_C: float) -> dict[str, float]:
+    """T_max, T_edge and A_T of the bottom surface from the nodal temperatures `T_C` (n,)."""
+    X, T = mesh.bottom_coordinate, T_C[mesh.bottom]
     peak = interior_peak(X, T)
     return {
         "T_max_C": peak.T_max_C,

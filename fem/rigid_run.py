@@ -1,13 +1,214 @@
-"""A rigid-block case recorded with the same tables as a deformable one."""
+"""A rigid-block case recorded with the same tables as a deformable one.
+
+The block does not deform, so its pressure is uniform, all of its bottom slips, and there is no
+elastic, viscous or kinetic energy: the work of the platen is the friction work.
+"""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+import pandas as pd
+
 from fem.case import Case
+from fem.heat import HeatModel
+from fem.model_parts import Progress, mesh_of
+from fem.outcome import INTERRUPTED, OK, Outcome
+from fem.recorder import temperature_columns
 from fem.results import Result
+from fem.rigid_block import RigidSliding, RigidStep, slide_rigid_block
+from fem.run_summary import largest, last_values, sliding_means
+from fem.snapshot import BlockGeometry, Snapshot
 
 
-def simulate_rigid(case: Case, progress: Callable[[Any], None] | None = None) -> Result:
-    raise NotImplementedError
+class _RigidRun:
+    """Accepted state of a rigid run and what was recorded of it."""
+
+    def __init__(self, case: Case, progress: Callable[[Progress], None] | None) -> None:
+        self.case, self.progress = case, progress
+        self.mesh = mesh_of(case)
+        self.model = HeatModel.from_case(case, self.mesh)
+        self.sliding = RigidSliding.from_case(case)
+        self.heat = self.model.initial_state()
+        self.rows: list[dict[str, Any]] = []
+        self.snapshots: list[Snapshot] = []
+        self.work = self.capped = self.time = self.distance = self.position = 0.0
+        count = case.output.snapshots
+        self._due = list(np.linspace(0.0, case.loading.distance_mm, count + 1)[1:])
+
+    @property
+    def geometry(self) -> BlockGeometry:
+        """Mesh for output."""
+        return BlockGeometry(points=self.mesh.points, cells=self.mesh.cells)
+
+    def run(self) -> Outcome:
+        """Slide to the end, or until the user interrupts."""
+        try:
+            for step in slide_rigid_block(self.model, self.sliding):
+                self._accept(step)
+        except KeyboardInterrupt:
+            return Outcome(status=INTERRUPTED, reason="interrupted by the user")
+        return Outcome(status=OK)
+
+    def _accept(self, step: RigidStep) -> None:
+        self.heat, self.time, self.position = step.heat, step.time_s, step.position_mm
+        self.work += step.dissipation
+        self.capped += step.capped_dissipation
+        end = self.case.loading.distance_mm
+        self.distance = end if np.isclose(step.distance_mm, end) else step.distance_mm
+        self.rows.append(self._row(step))
+        if self._due and self.distance >= self._due[0]:
+            self._due = [distance for distance in self._due if distance > self.distance]
+            self.snapshot()
+        if self.progress is not None:
+            self.progress(
+                Progress(
+                    sliding_distance_mm=self.distance,
+                    T_max_C=self.rows[-1]["T_max_C"],
+                    newton_iterations=0,
+                )
+            )
+
+    def _row(self, step: RigidStep) -> dict[str, Any]:
+        normal, friction = step.normal_force, step.friction_force
+        row: dict[str, Any] = {
+            "time_s": step.time_s,
+            "sliding_distance_mm": self.distance,
+            "velocity_mm_per_s": self.sliding.velocity,
+            "normal_force_N_per_mm": normal,
+            "friction_force_N_per_mm": friction,
+            "friction_coefficient": friction / normal,
+            "contact_length_mm": float(step.tributary_mm.sum()),
+            "mean_contact_pressure_N_per_mm2": self.sliding.pressure,
+            "max_contact_pressure_N_per_mm2": float(step.pressure.max()),
+            "platen_displacement_mm": 0.0,
+        }
+        row |= temperature_columns(self.mesh, self.heat.T, self.case.heat.ambient_C)
+        row |= {"newton_iterations": 0}
+        row |= self._energies()
+        row |= {"friction_lag_error": self._lag_error(step), "min_J": 1.0}
+        return row | {"sticking_nodes": 0, "slipping_nodes": len(step.nodes)}
+
+    def _energies(self) -> dict[str, float]:
+        heat = self.heat
+        return {
+            "work_in_mJ_per_mm": self.work,
+            "strain_energy_mJ_per_mm": 0.0,
+            "friction_dissipation_mJ_per_mm": self.work,
+            "viscous_dissipation_mJ_per_mm": 0.0,
+            "kinetic_energy_mJ_per_mm": 0.0,
+            "frictional_heat_mJ_per_mm": heat.generated,
+            "heat_in_rubber_mJ_per_mm": heat.in_block,
+            "heat_in_road_mJ_per_mm": heat.in_road + heat.left,
+            "radiated_mJ_per_mm": heat.radiated,
+        }
+
+    def _coefficient(self) -> np.ndarray:
+        """Friction coefficient of the bottom nodes at their present temperature [-]."""
+        T = self.heat.T[self.mesh.bottom]
+        p = np.full(len(T), self.sliding.pressure)
+        return self.sliding.friction.coefficient(p, abs(self.sliding.velocity), T)
+
+    def _lag_error(self, step: RigidStep) -> float:
+        """Relative change of the friction force with the temperatures at the end of the step."""
+        change = np.abs(self._coefficient() - step.mu)
+        total = float(np.sum(step.mu * step.tributary_mm))
+        return float(np.sum(change * step.tributary_mm)) / total if total > 0.0 else 0.0
+
+    def snapshot(self) -> None:
+        """Append the fields of the accepted state; a rigid block has no stress of its own."""
+        cells = len(self.mesh.cells)
+        road = self.model.road_field(self.heat, self.position)
+        self.snapshots.append(
+            Snapshot(
+                time_s=self.time,
+                sliding_distance_mm=self.distance,
+                displacement=np.zeros_like(self.mesh.points),
+                temperature=self.heat.T,
+                cauchy_stress=np.zeros((cells, 4)),
+                stretch=np.ones(cells),
+                pressure=np.zeros(cells),
+                road_points=road.points,
+                road_cells=road.cells,
+                road_temperature=road.temperature,
+            )
+        )
+
+    def surface(self) -> pd.DataFrame:
+        """Table of the bottom surface, from the trailing to the leading corner."""
+        mesh, pressure = self.mesh, self.sliding.pressure
+        count = len(mesh.bottom)
+        return pd.DataFrame(
+            {
+                "X_mm": mesh.bottom_coordinate,
+                "x_mm": mesh.points[mesh.bottom, 0],
+                "y_mm": mesh.points[mesh.bottom, 1],
+                "in_contact": np.ones(count, dtype=bool),
+                "pressure_N_per_mm2": np.full(count, pressure),
+                "shear_N_per_mm2": -mesh.direction * self._coefficient() * pressure,
+                "slip_velocity_mm_per_s": np.full(count, self.sliding.velocity),
+                "T_C": self.heat.T[mesh.bottom],
+                "status": np.full(count, "slip"),
+            }
+        )
+
+    def summary(self, outcome: Outcome, wall: float) -> dict[str, Any]:
+        """Scalars of the run."""
+        history, made = pd.DataFrame(self.rows), self.heat.generated
+        summary: dict[str, Any] = {"status": outcome.status}
+        if outcome.reason:
+            summary |= {"reason": outcome.reason}
+        summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
+        summary |= sliding_means(history, self.sliding.velocity)
+        return summary | {
+            "elements": len(self.mesh.cells),
+            "dofs": len(self.mesh.points),
+            "steps": len(history),
+            "newton_iterations": 0,
+            "wall_s": wall,
+            "energy_error": 0.0,
+            "heat_error": abs(self.heat.imbalance) / made if made > 0.0 else 0.0,
+            "regularisation_share": 0.0,
+            "capped_heat_share": self.capped / self.work if self.work > 0.0 else 0.0,
+            "rejected_steps": 0,
+            "friction_lag_error": largest(history, "friction_lag_error"),
+            "min_J": 1.0,
+        }
+
+
+def simulate_rigid(case: Case, progress: Callable[[Progress], None] | None = None) -> Result:
+    """Simulate the rigid block of a case.
+
+    Parameters
+    ----------
+    case : Case
+        The resolved case; the contact pressure is its mean pressure.
+    progress : callable, optional
+        Called with a `Progress` after each step.
+
+    Returns
+    -------
+    Result
+        The tables of a deformable run. When the user interrupts, everything up to then.
+    """
+    start = time.perf_counter()
+    run = _RigidRun(case, progress)
+    outcome = run.run()
+    if not run.snapshots or run.snapshots[-1].sliding_distance_mm < run.distance:
+        run.snapshot()
+    return Result.from_rows(
+        case,
+        run.geometry,
+        run.rows,
+        run.surface(),
+        run.summary(outcome, time.perf_counter() - start),
+        run.snapshots,
+        log=[
+            f"rigid {case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
+            f"{len(run.mesh.cells)} elements",
+            f"status: {outcome.status} {outcome.reason}".rstrip(),
+        ],
+    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,37 +16,14 @@ from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState
 from fem.elements import Q1P0Elements
 from fem.heat import HeatModel
 from fem.mechanics import BlockMechanics
-from fem.mesh import NAMED_GRADINGS, BlockMesh, Grading, block_mesh
+from fem.model_parts import Progress, mesh_of
 from fem.outcome import INTERRUPTED, OK, Outcome, failed
 from fem.programme import Phase, programme
 from fem.recorder import Recorder
 from fem.results import Result
 from fem.rigid_run import simulate_rigid
+from fem.run_summary import largest, last_values, sliding_means
 from fem.step_control import StepController, landed
-
-
-@dataclass(frozen=True, kw_only=True)
-class Progress:
-    """How far a run is, for a progress display."""
-
-    sliding_distance_mm: float
-    T_max_C: float
-    newton_iterations: int
-
-
-def mesh_of(case: Case) -> BlockMesh:
-    """Block mesh of a case, its leading edge on the side of the motion."""
-    block = case.block
-    if isinstance(block.mesh, str):
-        grading = NAMED_GRADINGS[block.mesh]
-    else:
-        spec = block.mesh
-        grading = Grading(
-            cells_x=spec.cells_x, cells_y=spec.cells_y,
-            smallest_x=spec.smallest_x_mm, smallest_y=spec.smallest_y_mm,
-        )  # fmt: skip
-    direction = 1 if case.loading.velocity_mm_per_s > 0 else -1
-    return block_mesh(block.length_mm, block.height_mm, grading, direction)
 
 
 def coupled_model(case: Case) -> CoupledModel:
@@ -191,7 +167,7 @@ def _summary(run: _Run, outcome: Outcome, wall: float) -> dict[str, Any]:
     summary: dict[str, Any] = {"status": outcome.status}
     if outcome.reason:
         summary |= {"reason": outcome.reason, "advice": outcome.advice}
-    summary |= _last(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
+    summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
     summary |= sliding_means(history, case.loading.velocity_mm_per_s)
     made = heat.generated
     summary |= {
@@ -205,37 +181,11 @@ def _summary(run: _Run, outcome: Outcome, wall: float) -> dict[str, Any]:
         "regularisation_share": run.audit.regularisation_share,
         "capped_heat_share": run.audit.capped_share,
         "rejected_steps": run.rejected,
-        "friction_lag_error": _largest(history, "friction_lag_error"),
+        "friction_lag_error": largest(history, "friction_lag_error"),
         "min_J": run.recorder.smallest_J,
         "solver_s": mechanics.solver.seconds,
     }
     return summary
-
-
-def _last(history: pd.DataFrame, columns: tuple[str, ...]) -> dict[str, float]:
-    return {c: float(history[c].iloc[-1]) if len(history) else float("nan") for c in columns}
-
-
-def _largest(history: pd.DataFrame, column: str) -> float:
-    return float(history[column].max()) if len(history) else float("nan")
-
-
-def sliding_means(history: pd.DataFrame, velocity: float) -> dict[str, float]:
-    """Means over the distance slid at full speed: force, coefficient, contact length, pressure."""
-    columns = (
-        "friction_force_N_per_mm",
-        "friction_coefficient",
-        "contact_length_mm",
-        "mean_contact_pressure_N_per_mm2",
-    )
-    if history.empty:
-        return dict.fromkeys(columns, float("nan"))
-    length = history["sliding_distance_mm"].diff().fillna(history["sliding_distance_mm"])
-    full = np.isclose(history["velocity_mm_per_s"], velocity, rtol=1e-6) & (length > 0.0)
-    chosen, weight = history[full], length[full]
-    if chosen.empty:
-        return {c: float(history[c].iloc[-1]) for c in columns}
-    return {c: float(np.average(chosen[c], weights=weight)) for c in columns}
 
 
 __all__ = ["CoupledState", "Progress", "coupled_model", "mesh_of", "simulate"]

@@ -1,0 +1,34 @@
+"""Scalars of a run from its history: values at the end, largest values, means over the slide."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+
+def last_values(history: pd.DataFrame, columns: tuple[str, ...]) -> dict[str, float]:
+    """Values of the last row; NaN where there is none."""
+    return {c: float(history[c].iloc[-1]) if len(history) else float("nan") for c in columns}
+
+
+def largest(history: pd.DataFrame, column: str) -> float:
+    """Largest value of a column; NaN where there is none."""
+    return float(history[column].max()) if len(history) else float("nan")
+
+
+def sliding_means(history: pd.DataFrame, velocity: float) -> dict[str, float]:
+    """Means over the distance slid at full speed: force, coefficient, contact length, pressure."""
+    columns = (
+        "friction_force_N_per_mm",
+        "friction_coefficient",
+        "contact_length_mm",
+        "mean_contact_pressure_N_per_mm2",
+    )
+    if history.empty:
+        return dict.fromkeys(columns, float("nan"))
+    length = history["sliding_distance_mm"].diff().fillna(history["sliding_distance_mm"])
+    full = np.isclose(history["velocity_mm_per_s"], velocity, rtol=1e-6) & (length > 0.0)
+    chosen, weight = history[full], length[full]
+    if chosen.empty:
+        return {c: float(history[c].iloc[-1]) for c in columns}
+    return {c: float(np.average(chosen[c], weights=weight)) for c in columns}
