@@ -10,29 +10,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.patches import Rectangle
-from numpy.typing import NDArray
 
 from fem.snapshot import FloatArray, IntArray
 from validation.style import BLACK, GREY, ROAD_GREY
 
 #: x_min, x_max, y_min, y_max [mm].
 Window = tuple[float, float, float, float]
-
-
-def draw_cells(
-    axes: Axes,
-    points: FloatArray,
-    cells: IntArray,
-    values: FloatArray,
-    norm: Normalize,
-    colours: str,
-) -> PolyCollection:
-    """Fill each cell with the colour of its value (one value per cell)."""
-    patches = PolyCollection(
-        points[cells], array=values, norm=norm, cmap=colours, edgecolors="face", linewidths=0.15
-    )
-    axes.add_collection(patches, autolim=False)
-    return patches
 
 
 def draw_smooth(
@@ -48,6 +31,23 @@ def draw_smooth(
     return axes.tripcolor(
         points[:, 0], points[:, 1], triangles, nodal, shading="gouraud", norm=norm, cmap=colours
     )
+
+
+def nodal_average(points: FloatArray, cells: IntArray, values: FloatArray) -> FloatArray:
+    """Area-weighted mean at each node of a field that is constant in each cell, (n,).
+
+    It removes the checkerboard that element pressures carry where the mesh is coarse.
+    """
+    weights = cell_areas(points[cells])
+    nodes, count = cells.ravel(), len(points)
+    total = np.bincount(nodes, np.repeat(weights * values, 4), minlength=count)
+    return np.asarray(total / np.bincount(nodes, np.repeat(weights, 4), minlength=count))
+
+
+def cell_areas(corners: FloatArray) -> FloatArray:
+    """Areas of quadrilaterals given by their corners, (ne, 4, 2) [mm^2]."""
+    d1, d2 = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    return np.asarray(0.5 * np.abs(d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]))
 
 
 def draw_mesh(
@@ -116,7 +116,12 @@ def mark_window(axes: Axes, window: Window, colour: str = BLACK) -> None:
 
 
 def front_window(
-    X: FloatArray, points: FloatArray, *, direction: int, aspect: float, share: float = 0.25
+    X: FloatArray,
+    points: FloatArray,
+    *,
+    direction: int,
+    aspect: float,
+    shares: tuple[float, float] = (0.14, 0.25),
 ) -> Window:
     """Window around the deformed front edge.
 
@@ -130,18 +135,13 @@ def front_window(
         +1 if the block slides to the right.
     aspect : float
         Height over width of the window.
-    share : float
+    shares : tuple of float
         Part of the length and of the height, at the leading bottom corner, that has to be seen.
     """
     from_front = (X[:, 0].max() - X[:, 0]) if direction > 0 else (X[:, 0] - X[:, 0].min())
-    corner = _corner(X, from_front, share)
+    corner = (from_front <= shares[0] * np.ptp(X[:, 0])) & (X[:, 1] <= shares[1] * np.ptp(X[:, 1]))
     low, high = points[corner].min(axis=0), points[corner].max(axis=0)
     width = max(high[0] - low[0], (high[1] - min(low[1], 0.0)) / aspect) * 1.1
     centre = 0.5 * (low[0] + high[0])
     bottom = min(low[1], 0.0) - 0.06 * width * aspect
     return (centre - width / 2, centre + width / 2, bottom, bottom + aspect * width)
-
-
-def _corner(X: FloatArray, from_front: FloatArray, share: float) -> NDArray[np.bool_]:
-    height = np.ptp(X[:, 1])
-    return np.asarray((from_front <= share * np.ptp(X[:, 0])) & (X[:, 1] <= share * height))

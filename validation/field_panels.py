@@ -15,18 +15,19 @@ from matplotlib.figure import Figure
 from fem.snapshot import BlockGeometry, FloatArray, Snapshot
 from validation.block_drawing import (
     Window,
-    draw_cells,
+    cell_areas,
     draw_mesh,
     draw_outline,
     draw_road,
     draw_smooth,
     front_window,
     mark_window,
+    nodal_average,
     set_window,
 )
 from validation.style import RUBBER_GREY, STRESS_MAP, TEMPERATURE_MAP
 
-#: Depth of the road that is drawn under the whole block and its share in the detail [mm].
+#: Depth of the road that is drawn under the whole block [mm].
 ROAD_DEPTH = 0.9
 #: Share of the area that may lie beyond each end of the stress scale: peaks at the front edge
 #: would otherwise leave the block in one colour. The colour bar's arrows say that there is more.
@@ -113,18 +114,24 @@ def temperature_panel(axes: Axes, state: BlockState, window: Window) -> ScalarMa
 
 def stress_panel(axes: Axes, state: BlockState, window: Window) -> ScalarMappable:
     """Draw the vertical normal stress, the scale covering 98 % of what the window shows."""
-    cells, sigma_y = state.geometry.cells, state.snapshot.cauchy_stress[:, 1]
+    cells, sigma_y = state.geometry.cells, vertical_stress(state)
     draw_road(axes, window)
     norm = stress_scale(state, window)
-    field = draw_cells(axes, state.points, cells, sigma_y, norm, STRESS_MAP)
+    field = draw_smooth(axes, state.points, cells, sigma_y, norm, STRESS_MAP)
     draw_outline(axes, state.points, cells)
     return field
+
+
+def vertical_stress(state: BlockState) -> FloatArray:
+    """sigma_y at the nodes, averaged over the elements around each, (n,) [N/mm^2]."""
+    geometry = state.geometry
+    return nodal_average(geometry.points, geometry.cells, state.snapshot.cauchy_stress[:, 1])
 
 
 def stress_scale(state: BlockState, window: Window) -> Normalize:
     """Limits between which 98 % of the visible area lie, rounded to 0.05 N/mm^2."""
     visible = state.seen(window)
-    values = state.snapshot.cauchy_stress[visible, 1]
+    values = vertical_stress(state)[state.geometry.cells[visible]].mean(axis=1)
     area = cell_areas(state.points[state.geometry.cells[visible]])
     order = np.argsort(values)
     share = np.cumsum(area[order]) / area.sum()
@@ -132,12 +139,6 @@ def stress_scale(state: BlockState, window: Window) -> Normalize:
     high = values[order][np.searchsorted(share, 1.0 - BEYOND_SCALE)]
     step = 0.05
     return Normalize(step * np.floor(low / step), step * np.ceil(high / step))
-
-
-def cell_areas(corners: FloatArray) -> FloatArray:
-    """Areas of quadrilaterals given by their corners, (ne, 4, 2) [mm^2]."""
-    d1, d2 = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
-    return np.asarray(0.5 * np.abs(d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]))
 
 
 def draw_panel(
@@ -168,5 +169,5 @@ def colour_bar(
     """Put a colour bar as high as the panel to its right."""
     place = axes.inset_axes((1.025, 0.0, 0.028, 1.0))
     bar = figure.colorbar(field, cax=place, label=label, extend=extend, extendfrac=0.06)
-    bar.outline.set_linewidth(0.5)  # type: ignore[operator]
+    bar.outline.set_linewidth(0.5)
     bar.ax.locator_params(nbins=6)
