@@ -16,6 +16,7 @@ from contact.active_set import ContactForces, ContactStatus
 from contact.conductance import GapConductance
 from contact.friction import ThermalFriction
 from contact.partition import HeatPartition
+from contact.self_contact import Pairs, find_pairs, touching
 from fem import newton
 from fem.heat import HeatLoad, HeatModel, HeatState
 from fem.mechanics import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
@@ -28,6 +29,8 @@ FloatArray = NDArray[np.float64]
 W_PER_M2K = 1e-3
 #: Lag of the friction force below which no further pass is made [-].
 LAG_TOLERANCE = 1e-4
+#: Largest number of passes over friction coefficient and pairs of self-contact.
+PASSES_MAX = 6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,6 +145,25 @@ class ContactLaws:
     conductance: GapConductance
 
 
+@dataclass(frozen=True, kw_only=True)
+class SelfContact:
+    """Settings of the contact of the block with itself.
+
+    Attributes
+    ----------
+    mu : float
+        Friction coefficient of rubber on rubber [-].
+    stiffness : float
+        Contact modulus [N/mm^2]: force per penetration relative to the local element size.
+    reach : float
+        Search distance [mm].
+    """
+
+    mu: float
+    stiffness: float
+    reach: float
+
+
 class CoupledModel:
     """Mechanics and heat of one block, advanced step by step.
 
@@ -170,7 +192,9 @@ class CoupledModel:
         mean_pressure: float,
         friction_passes: int,
         options: newton.NewtonOptions,
+        self_contact: SelfContact | None = None,
     ) -> None:
+        self.self_contact = self_contact
         self.mechanics, self.heat, self.laws = mechanics, heat, laws
         self.mean_pressure, self.friction_passes = mean_pressure, friction_passes
         self.options = options
@@ -192,10 +216,16 @@ class CoupledModel:
         )  # fmt: skip
 
     def advance(self, state: CoupledState, target: Target) -> AcceptedStep | RejectedStep:
-        """Solve one step from an accepted state; the state is not changed."""
-        mu, iterations, start = state.mu, 0, None
-        for last in [False] * (self.friction_passes - 1) + [True]:
-            load = StepLoad(dt=target.dt, sweep=target.sweep, force=target.force, mu=mu)
+        """Solve one step from an accepted state; the state is not changed.
+
+        Passes over the friction coefficient and over the pairs of self-contact, each from the
+        solution of the last.
+        """
+        mu, pairs, iterations, start = state.mu, self._pairs(state, state.mechanics.u), 0, None
+        for number in range(1, PASSES_MAX + 1):
+            load = StepLoad(
+                dt=target.dt, sweep=target.sweep, force=target.force, mu=mu, pairs=pairs
+            )
             problem = self.mechanics.step(state.mechanics, load)
             result = newton.solve(problem, start or problem.start(), self.options)
             iterations += result.iterations
@@ -206,12 +236,41 @@ class CoupledModel:
             contact = self._contact(problem, result.x, result.evaluation)
             mu_next = self._coefficient(contact, state.heat)
             lag = lag_error(contact, mu_next)
-            if last or lag < LAG_TOLERANCE:
-                break
-            mu, start = mu_next, result.x
-        return self._accept(
-            state, target, problem, result, contact, mu_next, iterations=iterations, lag=lag
-        )
+            mu_settled = lag < LAG_TOLERANCE or number >= self.friction_passes
+            found, met = self._met(state, pairs, result.x.u)
+            if mu_settled and met:
+                return self._accept(
+                    state, target, problem, result, contact, mu_next,
+                    iterations=iterations, lag=lag,
+                )  # fmt: skip
+            mu, pairs, start = mu if mu_settled else mu_next, found, result.x
+        return RejectedStep(
+            failure=newton.Failure.ITERATIONS, detail="self-contact keeps changing its partners",
+            iterations=iterations,
+        )  # fmt: skip
+
+    def _pairs(self, state: CoupledState, u: FloatArray) -> Pairs | None:
+        """Pairs of self-contact between the accepted state and displacements `u`."""
+        if self.self_contact is None:
+            return None
+        mechanics, settings = self.mechanics, self.self_contact
+        shear = state.mechanics.self_shear
+        points = mechanics.mesh.points
+        return find_pairs(
+            mechanics.boundary, points + state.mechanics.u, points + u,
+            reach=settings.reach, stiffness=settings.stiffness, mu=settings.mu,
+            shear_n=np.zeros(mechanics.boundary.nodes.size) if shear is None else shear,
+        )  # fmt: skip
+
+    def _met(
+        self, state: CoupledState, pairs: Pairs | None, u: FloatArray
+    ) -> tuple[Pairs | None, bool]:
+        """Pairs at displacements `u`, and whether those that touch were the ones used."""
+        found = self._pairs(state, u)
+        if found is None or pairs is None:
+            return found, True
+        x = self.mechanics.mesh.points + u
+        return found, np.array_equal(touching(found, x), touching(pairs, x))
 
     def _contact(self, problem: StepProblem, x: Iterate, evaluation: StepEvaluation) -> RoadContact:
         """Contact quantities of a converged iterate."""
@@ -249,7 +308,10 @@ class CoupledModel:
         kappa = self.laws.partition(contact.pressure)
         uncapped = self.laws.partition.uncapped(contact.pressure)
         heat = self._heat(state, target, x.u, contact, kappa * power)
-        mechanics = MechanicalState(u=x.u, velocity=problem.velocity(x.u), p=x.p, status=x.status)
+        mechanics = MechanicalState(
+            u=x.u, velocity=problem.velocity(x.u), p=x.p, status=x.status,
+            self_shear=self._self_shear(problem, result.evaluation),
+        )  # fmt: skip
         after = CoupledState(
             time=state.time + target.dt, position=state.position + target.sweep,
             mechanics=mechanics, heat=heat, contact=contact, mu=mu_next,
@@ -259,6 +321,15 @@ class CoupledModel:
             problem=problem, iterations=iterations, lag_error=lag, power=power, kappa=kappa,
             capped=uncapped > self.laws.partition.cap,
         )  # fmt: skip
+
+    def _self_shear(self, problem: StepProblem, evaluation: StepEvaluation) -> FloatArray | None:
+        """Tangential forces of self-contact by boundary node."""
+        pairs, forces = problem.load.pairs, evaluation.pairs
+        if pairs is None or forces is None:
+            return None
+        shear = np.zeros(self.mechanics.boundary.nodes.size)
+        shear[pairs.place] = forces.shear
+        return shear
 
     def _heat(
         self, state: CoupledState, target: Target, u: FloatArray, contact: RoadContact,

@@ -14,8 +14,10 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_matrix, csc_matrix
 
 from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
+from contact.self_contact import Boundary, PairForces, Pairs, pair_forces, pair_tangents
 from fem.elements import ElementForces, Q1P0Elements, Viscosity
 from fem.linear_solver import LinearSolver, SuperLUSolver, fill_reducing_order
 from fem.mesh import BlockMesh
@@ -40,12 +42,15 @@ class StepLoad:
         Force on the platen, downwards, per depth, at the end of the step [N/mm].
     mu : (m,) float array
         Friction coefficient of the candidates [-].
+    pairs : Pairs or None
+        Nodes and segments of the boundary that may meet; None without self-contact.
     """
 
     dt: float
     sweep: float
     force: float
     mu: FloatArray
+    pairs: Pairs | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +75,14 @@ class StepEvaluation:
     status : ContactStatus
         Status asked for by the iterate.
     nodal : (n, 2) float array
-        Nodal forces: internal, viscous and inertial, minus the applied ones [N/mm].
+        Nodal forces: internal, viscous, inertial and of self-contact, minus the applied ones
+        [N/mm].
+    residual : (size,) float array
+        Residual of the equations.
+    elements : ElementForces or None
+        Element forces and kinematics; None if the iterate is not admissible.
+    pairs : PairForces or None
+        Forces of self-contact.
     """
 
     merit: float
@@ -79,6 +91,7 @@ class StepEvaluation:
     nodal: FloatArray
     residual: FloatArray
     elements: ElementForces | None
+    pairs: PairForces | None = None
 
 
 class BlockMechanics:
@@ -119,6 +132,9 @@ class BlockMechanics:
             mesh.cells.ravel(), np.repeat(density * elements.volume / 4.0, 4), minlength=n
         )
         self.candidates = mesh.boundary[1:-1]
+        size = np.full(n, np.inf)
+        np.minimum.at(size, mesh.cells, mesh.size[:, None])
+        self.boundary = Boundary.of(mesh.boundary, mesh.direction, mesh.points, size[mesh.boundary])
         self._number_equations()
         self._top_load = np.zeros(n)
         edge = np.abs(np.diff(mesh.points[mesh.top, 0])) / (2.0 * mesh.length)
@@ -262,6 +278,10 @@ class StepProblem:
             return inadmissible(x.status)
         elements = system.elements.forces(x.u, x.p, kin, self.viscosity)
         nodal = self.nodal_forces(x.u, elements)
+        pairs = None
+        if self.load.pairs is not None:
+            pairs = pair_forces(self.load.pairs, system.mesh.points + x.u)
+            np.add.at(nodal, self.load.pairs.nodes, pairs.residual.reshape(-1, 3, 2))
         forces = self.contact_forces(x.u, nodal)
         status = x.status
         if not first:
@@ -275,7 +295,7 @@ class StepProblem:
         merit = max(self._size(residual, status, stiffness), mismatch) / system.tolerance
         return StepEvaluation(
             merit=float(merit), settled=not first and status.same_as(x.status),
-            status=status, nodal=nodal, residual=residual, elements=elements,
+            status=status, nodal=nodal, residual=residual, elements=elements, pairs=pairs,
         )  # fmt: skip
 
     def contact_forces(self, u: FloatArray, nodal: FloatArray) -> ContactForces:
@@ -311,15 +331,13 @@ class StepProblem:
         """Newton direction with the status asked for by the iterate."""
         system = self.system
         assert evaluation.elements is not None
-        data = self.tangent(evaluation)
-        matrix = system.pattern.matrix(data)
-        step = system.solver.solve(matrix, -evaluation.residual)
+        step = system.solver.solve(self.tangent(evaluation), -evaluation.residual)
         du = system.scatter(step)
         dp = system.elements.pressure_increment(evaluation.elements, du)
         return Iterate(u=du, p=dp, status=evaluation.status)
 
-    def tangent(self, evaluation: StepEvaluation) -> FloatArray:
-        """Data of the tangent of `residual` on the system's pattern."""
+    def tangent(self, evaluation: StepEvaluation) -> csc_matrix:
+        """Tangent of the residual, with the status asked for by the iterate."""
         system = self.system
         assert evaluation.elements is not None
         K = system.elements.tangent(evaluation.elements, self.viscosity)
@@ -329,7 +347,36 @@ class StepProblem:
         data[system._diagonal] += np.bincount(
             equations[system._numbered], inertia[system._numbered], minlength=system.pattern.size
         )
-        return self._with_contact_rows(data, evaluation.status)
+        data = self._with_contact_rows(data, evaluation.status)
+        matrix = system.pattern.matrix(data)
+        if evaluation.pairs is None or not evaluation.pairs.normal.any():
+            return matrix
+        return (matrix + self._pair_matrix(evaluation.pairs, evaluation.status)).tocsc()
+
+    def _pair_matrix(self, forces: PairForces, status: ContactStatus) -> csc_matrix:
+        """Tangent of self-contact with the row operations of the road contact."""
+        system, pairs = self.system, self.load.pairs
+        assert pairs is not None
+        pressed = forces.normal > 0.0
+        K = pair_tangents(pairs, forces)[pressed]
+        equations = system.equation[pairs.nodes[pressed]].reshape(-1, 6)
+        row = np.repeat(equations, 6, axis=1).ravel()
+        column = np.tile(equations, (1, 6)).ravel()
+        kept = (row >= 0) & (column >= 0)
+        row, column, value = row[kept], column[kept], K.ravel()[kept]
+        rows = system.equation[system.candidates]
+        slipping, size = status.slipping, system.pattern.size
+        factor, partner = np.zeros(size), np.zeros(size, dtype=np.int64)
+        factor[rows[slipping, 1]] = (status.sense * self.load.mu)[slipping]
+        partner[rows[slipping, 1]] = rows[slipping, 0]
+        free = np.ones(size, dtype=bool)
+        free[rows[status.active, 1]] = False
+        free[rows[status.sticking, 0]] = False
+        passed = factor[row] != 0.0
+        row_to = np.concatenate([row[free[row]], partner[row[passed]]])
+        column_to = np.concatenate([column[free[row]], column[passed]])
+        value_to = np.concatenate([value[free[row]], (factor[row] * value)[passed]])
+        return coo_matrix((value_to, (row_to, column_to)), shape=(size, size)).tocsc()
 
     def _with_contact_rows(self, data: FloatArray, status: ContactStatus) -> FloatArray:
         """Friction rows, stick rows and gap rows put into the matrix data."""

@@ -12,7 +12,7 @@ import pandas as pd
 from fem import newton
 from fem.audit import EnergyAudit, audited
 from fem.case import Case
-from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState
+from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState, SelfContact
 from fem.elements import Q1P0Elements
 from fem.heat import HeatModel
 from fem.mechanics import BlockMechanics
@@ -50,6 +50,7 @@ def coupled_model(case: Case) -> CoupledModel:
         mean_pressure=case.loading.mean_pressure_N_per_mm2,
         friction_passes=solver.friction_passes,
         options=newton.NewtonOptions(iterations_max=solver.newton_iterations_max),
+        self_contact=SelfContact(mu=1.0, stiffness=10.0 * case.rubber.bulk_modulus, reach=0.5),
     )
 
 

@@ -26,9 +26,12 @@ class MechanicalState:
         Element pressures dU/dJ, positive in tension [N/mm^2].
     status : ContactStatus
         Status of the contact candidates.
+    self_shear : (mb,) float array or None
+        Tangential forces of self-contact by boundary node [N/mm]; None where there is none.
     """
 
     u: FloatArray
     velocity: FloatArray
     p: FloatArray
     status: ContactStatus
+    self_shear: FloatArray | None = None

@@ -1,0 +1,332 @@
+"""Contact of the block's free boundary with itself: node to segment, both ways, with friction.
+
+A boundary node s and a segment from a to b have the gap ``g = n.(s - a)``, open positive, with n
+the outward normal of the segment. Penetration is resisted by a stiffness that is not guessed: a
+multiple of the rubber's bulk stiffness over the local element size, so that pressures of the
+order of the material's own can only press a small fraction of an element in. Friction follows
+Coulomb with the same stiffness in stick; the slip is measured along the segment,
+``gamma = L_n (xi - xi_n)``. The tangent is consistent [1]_.
+
+Which segment a node meets is chosen outside the Newton iteration and judged by the *accepted*
+state: a node that is behind a segment there lies behind it through the material (a thin wedge
+between two faces looks locally just like a penetration) and cannot meet it.
+
+References
+----------
+.. [1] Wriggers, P., Computational Contact Mechanics, 2nd ed., Springer 2006, ch. 9 (node-to-segment
+   discretisation and its linearisation).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Normals of a node and a segment must oppose each other by more than this cosine.
+OPPOSING = -0.2
+#: Nodes closer than this along the boundary (in segments) do not meet a segment.
+NEIGHBOURS = 2
+#: Share of the local size by which a node may be behind a segment in the accepted state.
+BEHIND = 0.05
+#: Projections count on a segment extended by this share on both sides.
+OVERHANG = 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
+class Boundary:
+    """The free boundary as a chain of nodes.
+
+    Attributes
+    ----------
+    nodes : (m,) int array
+        Mesh nodes in order along the boundary.
+    orientation : int
+        +1 when the material lies to the left of the chain, -1 when to the right.
+    length : (m,) float array
+        Reference length each node stands for [mm].
+    size : (m,) float array
+        Local element size, which gaps are compared with [mm].
+    """
+
+    nodes: IntArray
+    orientation: int
+    length: FloatArray
+    size: FloatArray
+
+    @classmethod
+    def of(
+        cls, nodes: IntArray, orientation: int, points: FloatArray, size: FloatArray
+    ) -> Boundary:
+        """Boundary of the reference coordinates `points` (n, 2) with local sizes (m,)."""
+        edges = np.linalg.norm(np.diff(points[nodes], axis=0), axis=1)
+        halves = 0.5 * np.append(0.0, edges) + 0.5 * np.append(edges, 0.0)
+        return cls(nodes=nodes, orientation=orientation, length=halves, size=size)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pairs:
+    """Nodes and the segments they may meet during a step, arrays of length k.
+
+    Attributes
+    ----------
+    place : (k,) int array
+        Position of the node in the boundary chain.
+    nodes : (k, 3) int array
+        Mesh nodes s, a, b.
+    xi_n, L_n : float arrays
+        Projection on the segment and its length in the accepted state [-], [mm].
+    stiffness : float array
+        Force per penetration, per depth [N/mm^2].
+    shear_n : float array
+        Tangential force of the accepted state [N/mm].
+    mu : float
+        Friction coefficient of rubber on rubber [-].
+    orientation : int
+        See `Boundary`.
+    """
+
+    place: IntArray
+    nodes: IntArray
+    xi_n: FloatArray
+    L_n: FloatArray
+    stiffness: FloatArray
+    shear_n: FloatArray
+    mu: float
+    orientation: int
+
+    def same_as(self, other: Pairs) -> bool:
+        """Whether the same nodes meet the same segments."""
+        return np.array_equal(self.nodes, other.nodes)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SegmentGeometry:
+    """Node relative to segment: arrays (k,), vectors (k, 2)."""
+
+    t: FloatArray
+    n: FloatArray
+    L: FloatArray
+    xi: FloatArray
+    gap: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairForces:
+    """Forces of the pairs at an iterate.
+
+    Attributes
+    ----------
+    geometry : SegmentGeometry
+        Gaps and directions.
+    normal : (k,) float array
+        Compressive force [N/mm].
+    shear : (k,) float array
+        Tangential force, conjugate to the slip along the segment [N/mm].
+    slipping : (k,) bool array
+        Whether the friction limit is reached.
+    slip : (k,) float array
+        Slip along the segment since the accepted state [mm].
+    residual : (k, 6) float array
+        Forces on s, a, b to be added to the internal forces [N/mm].
+    grad_gap, grad_slip : (k, 6) float arrays
+        Gradients of gap and slip.
+    """
+
+    geometry: SegmentGeometry
+    normal: FloatArray
+    shear: FloatArray
+    slipping: NDArray[np.bool_]
+    slip: FloatArray
+    residual: FloatArray
+    grad_gap: FloatArray
+    grad_slip: FloatArray
+
+
+def segment_geometry(
+    s: FloatArray, a: FloatArray, b: FloatArray, orientation: int
+) -> SegmentGeometry:
+    """Gap and projection of nodes s on segments a-b, all (k, 2) [mm]."""
+    e = b - a
+    L = np.hypot(e[:, 0], e[:, 1])
+    t = e / L[:, None]
+    n = orientation * np.column_stack([t[:, 1], -t[:, 0]])
+    w = s - a
+    return SegmentGeometry(
+        t=t, n=n, L=L, xi=np.einsum("ki,ki->k", t, w) / L, gap=np.einsum("ki,ki->k", n, w)
+    )
+
+
+def _spread(v: FloatArray, shape: FloatArray) -> FloatArray:
+    """Vectors v (k, 2) weighted on s, a, b with `shape` (k, 3), flattened to (k, 6)."""
+    return (shape[:, :, None] * v[:, None, :]).reshape(-1, 6)
+
+
+def _shapes(xi: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Weights of the relative displacement (1, xi-1, -xi) and of the edge (0, -1, 1)."""
+    zero, one = np.zeros_like(xi), np.ones_like(xi)
+    return np.column_stack([one, xi - 1.0, -xi]), np.column_stack([zero, -one, one])
+
+
+def pair_forces(pairs: Pairs, x: FloatArray) -> PairForces:
+    """Forces of the pairs at current coordinates `x` (n, 2) [mm]."""
+    s, a, b = (x[pairs.nodes[:, i]] for i in range(3))
+    geometry = segment_geometry(s, a, b, pairs.orientation)
+    relative, edge = _shapes(geometry.xi)
+    grad_gap = _spread(geometry.n, relative)
+    ratio = (geometry.gap / geometry.L)[:, None]
+    grad_xi = _spread(geometry.t, relative) + ratio * _spread(geometry.n, edge)
+    grad_slip = (pairs.L_n / geometry.L)[:, None] * grad_xi
+    normal = pairs.stiffness * np.maximum(-geometry.gap, 0.0)
+    slip = pairs.L_n * (geometry.xi - pairs.xi_n)
+    trial = pairs.shear_n + pairs.stiffness * slip
+    limit = pairs.mu * normal
+    slipping = np.abs(trial) > limit
+    shear = np.where(slipping, np.sign(trial) * limit, trial)
+    shear = np.where(normal > 0.0, shear, 0.0)
+    residual = -normal[:, None] * grad_gap + shear[:, None] * grad_slip
+    return PairForces(
+        geometry=geometry, normal=normal, shear=shear, slipping=slipping, slip=slip,
+        residual=residual, grad_gap=grad_gap, grad_slip=grad_slip,
+    )  # fmt: skip
+
+
+def pair_tangents(pairs: Pairs, forces: PairForces) -> FloatArray:
+    """Derivative of the pair residuals with respect to s, a, b, (k, 6, 6) [N/mm^2]."""
+    geo = forces.geometry
+    relative, edge = _shapes(geo.xi)
+    N_s, T_s = _spread(geo.n, relative), _spread(geo.t, relative)
+    N_0, T_0 = _spread(geo.n, edge), _spread(geo.t, edge)
+    L, g = geo.L[:, None, None], geo.gap[:, None, None]
+    hess_gap = -_symmetric(T_s, N_0) / L - g / L**2 * _outer(N_0, N_0)
+    grad_xi = (T_s + (geo.gap / geo.L)[:, None] * N_0) / geo.L[:, None]
+    hess_xi = (
+        _symmetric(N_s, N_0) / L**2 - _symmetric(T_0, grad_xi) / L - g / L**3 * _symmetric(N_0, T_0)
+    )
+    pressed = forces.normal > 0.0
+    stiffness = np.where(pressed, pairs.stiffness, 0.0)[:, None, None]
+    K = stiffness * _outer(forces.grad_gap, forces.grad_gap)
+    K -= forces.normal[:, None, None] * hess_gap
+    K += (forces.shear * pairs.L_n)[:, None, None] * hess_xi
+    sticks = (pressed & ~forces.slipping)[:, None, None]
+    K += np.where(sticks, stiffness * _outer(forces.grad_slip, forces.grad_slip), 0.0)
+    # Sliding friction follows the normal force: d(shear) = -sign mu k d(gap).
+    drag = np.where(forces.slipping, np.sign(forces.shear) * pairs.mu, 0.0)[:, None, None]
+    K -= drag * stiffness * _outer(forces.grad_slip, forces.grad_gap)
+    return K
+
+
+def _outer(a: FloatArray, b: FloatArray) -> FloatArray:
+    return a[:, :, None] * b[:, None, :]
+
+
+def _symmetric(a: FloatArray, b: FloatArray) -> FloatArray:
+    return _outer(a, b) + _outer(b, a)
+
+
+def find_pairs(
+    boundary: Boundary,
+    x_n: FloatArray,
+    x: FloatArray,
+    *,
+    reach: float,
+    stiffness: float,
+    mu: float,
+    shear_n: FloatArray,
+) -> Pairs:
+    """Pairs that may come into contact between an accepted state and an iterate.
+
+    Parameters
+    ----------
+    boundary : Boundary
+        Chain of free boundary nodes.
+    x_n, x : (n, 2) float arrays
+        Coordinates in the accepted state and at the iterate [mm].
+    reach : float
+        Largest distance between node and segment node that is looked at [mm].
+    stiffness : float
+        Contact modulus [N/mm^2]: force per penetration relative to the local size, per length.
+    mu : float
+        Friction coefficient of rubber on rubber [-].
+    shear_n : (m,) float array
+        Tangential forces of the accepted state, by place in the chain [N/mm].
+
+    Returns
+    -------
+    Pairs
+        At most one segment a node: of those with opposing normals, a projection inside, and in
+        front of which the node was, the nearest.
+    """
+    place, segment = _near(boundary, x, reach)
+    chain, n_n = x[boundary.nodes], x_n[boundary.nodes]
+    now = segment_geometry(chain[place], chain[segment], chain[segment + 1], boundary.orientation)
+    then = segment_geometry(n_n[place], n_n[segment], n_n[segment + 1], boundary.orientation)
+    normals = node_normals(chain, boundary.orientation)
+    size = np.minimum(
+        boundary.size[place], np.minimum(boundary.size[segment], boundary.size[segment + 1])
+    )
+    kept = (
+        (np.einsum("ki,ki->k", normals[place], now.n) < OPPOSING)
+        & (np.abs(now.xi - 0.5) <= 0.5 + OVERHANG)
+        & (then.gap > -BEHIND * size)
+        & (np.abs(now.gap) < reach)
+    )
+    kept = np.flatnonzero(kept)
+    kept = kept[np.lexsort((np.abs(now.gap[kept]), place[kept]))]
+    kept = kept[np.unique(place[kept], return_index=True)[1]]
+    place, segment = place[kept], segment[kept]
+    return Pairs(
+        place=place,
+        nodes=np.column_stack(
+            [boundary.nodes[place], boundary.nodes[segment], boundary.nodes[segment + 1]]
+        ),
+        xi_n=then.xi[kept],
+        L_n=then.L[kept],
+        stiffness=stiffness * boundary.length[place] / size[kept],
+        shear_n=shear_n[place],
+        mu=mu,
+        orientation=boundary.orientation,
+    )
+
+
+def _near(boundary: Boundary, x: FloatArray, reach: float) -> tuple[IntArray, IntArray]:
+    """Places of nodes and numbers of segments closer than `reach`, neighbours left out."""
+    chain = x[boundary.nodes]
+    close = cKDTree(chain).query_pairs(reach, output_type="ndarray")
+    close = close[np.abs(close[:, 0] - close[:, 1]) > NEIGHBOURS]
+    both = np.concatenate([close, close[:, ::-1]])
+    place = np.concatenate([both[:, 0], both[:, 0]])
+    segment = np.concatenate([both[:, 1] - 1, both[:, 1]])
+    apart = np.minimum(np.abs(place - segment), np.abs(place - segment - 1))
+    valid = (segment >= 0) & (segment < len(chain) - 1) & (apart > NEIGHBOURS)
+    code = np.unique(place[valid] * len(chain) + segment[valid])
+    return code // len(chain), code % len(chain)
+
+
+def node_normals(chain: FloatArray, orientation: int) -> FloatArray:
+    """Outward unit normals at the nodes of a chain (m, 2), mean of the adjoining segments."""
+    e = np.diff(chain, axis=0)
+    n = orientation * np.column_stack([e[:, 1], -e[:, 0]])
+    total = np.vstack([n[:1], n]) + np.vstack([n, n[-1:]])
+    return np.asarray(total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None])
+
+
+def touching(pairs: Pairs, x: FloatArray) -> IntArray:
+    """Nodes s, a, b of the pairs that are closed at coordinates `x`, (k', 3)."""
+    s, a, b = (x[pairs.nodes[:, i]] for i in range(3))
+    gap = segment_geometry(s, a, b, pairs.orientation).gap
+    return np.asarray(pairs.nodes[gap < 0.0])
+
+
+def penetration(pairs: Pairs, x: FloatArray, boundary: Boundary) -> float:
+    """Largest penetration of the pairs relative to the local element size [-]."""
+    if pairs.place.size == 0:
+        return 0.0
+    s, a, b = (x[pairs.nodes[:, i]] for i in range(3))
+    gap = segment_geometry(s, a, b, pairs.orientation).gap
+    return float(np.max(np.maximum(-gap, 0.0) / boundary.size[pairs.place], initial=0.0))
