@@ -1,8 +1,8 @@
 """Fit of friction laws to measured coefficients.
 
 The law of Huemer has a redundancy: multiplying alpha, beta, a, b, c by one number leaves mu as it
-is. The fit holds ``a`` at the value of the paper's Table 2, 0.9203, so that the other six parameters
-are unique and come out in the paper's scale.
+is. The fit holds ``a`` at the value of the paper's Table 2, 0.9203, so that the other six
+parameters are unique and come out in the paper's scale.
 
 References
 ----------

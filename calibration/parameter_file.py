@@ -2,7 +2,8 @@
 
 A case file refers to one with ``parameters = "file.toml"`` in its ``[rubber]``, ``[friction]`` or
 ``[heat]`` section. The file has a table of that name with the keys of the section, and a table
-``[fit]`` that says which data, selection, model and version made the numbers, and how sure they are.
+``[fit]`` that says which data, selection, model and version made the numbers, and how sure they
+are.
 """
 
 import json

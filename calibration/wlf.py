@@ -107,7 +107,7 @@ def _sweeps(source: Table) -> dict[float, tuple[Array, Array]]:
     source.require_all("modulus_N_per_mm2", E > 0.0, "a modulus above 0 N/mm^2")
     sweeps = {}
     for temperature in np.unique(T):
-        here = np.flatnonzero(T == temperature)
+        here = np.flatnonzero(temperature == T)
         frequency, first = np.unique(np.log10(f[here]), return_index=True)
         if frequency.size < 3:
             source.refuse_at(
@@ -228,6 +228,7 @@ def fit_wlf(
         "data_sha256": source.sha256,
         "temperature_window_C": [float(T.min()), float(T.max())],
         "T_ref_C": reference,
+        "T_C": T.tolist(),
         "version": version(),
     }
     section = {"wlf": True, "d1": wlf.d1, "d2_K": wlf.d2_K, "T_ref_C": reference}

@@ -1,0 +1,320 @@
+"""The `calibrate` command: reads a table, fits, writes a folder with the parameter file.
+
+Everything is computed before anything is written, so that bad data leave no trace.
+"""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from calibration.errors import DataError
+from calibration.fit_core import FitResult
+from calibration.friction import LAWS, compare_laws, fit_friction, read_friction
+from calibration.hyperelastic import compare_models, fit_hyperelastic, select_data
+from calibration.parameter_file import parameter_text
+from calibration.plots import (
+    plot_comparison,
+    plot_friction,
+    plot_hyperelastic,
+    plot_master_curve,
+    plot_wlf,
+    png,
+)
+from calibration.stress_models import STRESS_MODELS
+from calibration.tables import read_table
+from calibration.wlf import fit_wlf, shift_sweeps
+from materials.hyperelastic import MODES
+from materials.wlf import WLF
+
+BAD_INPUT = 2
+CONSTANTS = WLF()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """What a calibration prints and writes.
+
+    Parameters
+    ----------
+    text : str
+        Summary to print.
+    files : dict
+        Content by file name.
+    """
+
+    text: str
+    files: Mapping[str, bytes]
+
+    def write(self, directory: Path) -> None:
+        """Write the files, each of them whole or not at all."""
+        directory.mkdir(parents=True, exist_ok=True)
+        for name, content in self.files.items():
+            temporary = directory / f".{name}.{os.getpid()}"
+            try:
+                temporary.write_bytes(content)
+                os.replace(temporary, directory / name)
+            finally:
+                temporary.unlink(missing_ok=True)
+
+
+def calibrate_hyperelastic(path: str | Path, *, compare: bool = True, **options: Any) -> Outcome:
+    """Fit a hyperelastic model to the CSV file `path` (options of `fit_hyperelastic`)."""
+    choice = {k: options.pop(k) for k in ("cycle", "branch", "window", "modes") if k in options}
+    model = options.pop("model", "yeoh")
+    data = select_data(path, **choice)
+    result = fit_hyperelastic(data, model, **options)
+    points = pd.DataFrame(
+        {
+            "row": data.table.rows,
+            "mode": data.mode,
+            "stretch": data.stretch,
+            "nominal_stress_N_per_mm2": data.stress,
+            "fit_N_per_mm2": result.predicted,
+            "residual_N_per_mm2": result.predicted - result.observed,
+        }
+    )
+    files = _files(result, points) | {"fit.png": png(plot_hyperelastic(result, data))}
+    text = _heading(result, path)
+    if compare:
+        same = {k: v for k, v in options.items() if k != "fixed"}
+        found = compare_models(data, **same)
+        files["models.csv"] = _csv(found)
+        files["models.png"] = png(plot_comparison(found, "rmse_N_per_mm2", "N/mm²"))
+        text += "\nall models on the same data, best AIC first:\n" + _shown(
+            found.drop(columns=["n_data", "values"])
+        )
+    return Outcome(text=text, files=files)
+
+
+def calibrate_friction(path: str | Path, *, compare: bool = True, **options: Any) -> Outcome:
+    """Fit a friction law to the CSV file `path` (options of `fit_friction`)."""
+    law = options.pop("law", "huemer")
+    data = read_friction(path)
+    result = fit_friction(data, law, **options)
+    points = pd.DataFrame(
+        {
+            "row": data.table.rows,
+            "p_N_per_mm2": data.p,
+            "v_mm_per_s": data.v,
+            **({} if data.T is None else {"T_C": data.T}),
+            "mu": data.mu,
+            "fit": result.predicted,
+            "residual": result.predicted - result.observed,
+        }
+    )
+    files = _files(result, points) | {"fit.png": png(plot_friction(result, data))}
+    text = _heading(result, path)
+    if compare:
+        same = {k: v for k, v in options.items() if k != "fixed"}
+        found = compare_laws(data, **same)
+        files["laws.csv"] = _csv(found)
+        text += "\nboth laws on the same data, best AIC first:\n" + _shown(found)
+    return Outcome(text=text, files=files)
+
+
+def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None) -> Outcome:
+    """Fit the WLF constants to shift factors or frequency sweeps in the CSV file `path`."""
+    files: dict[str, bytes] = {}
+    extra = ""
+    if read_table(path, ("T_C",)).has("frequency_Hz"):
+        master = shift_sweeps(path, T_ref_C)
+        files["shift_factors.csv"] = _csv(master.shifts)
+        files["master_curve.csv"] = _csv(master.curve)
+        files["master_curve.png"] = png(plot_master_curve(master))
+        extra = f"\n  overlap error {master.overlap_error:.3g} decades" + "".join(
+            f"\n  warning: {warning}" for warning in master.warnings
+        )
+    result = fit_wlf(path, T_ref_C=T_ref_C)
+    points = pd.DataFrame(
+        {
+            "T_C": result.metadata["T_C"],
+            "log10_aT": result.observed,
+            "fit": result.predicted,
+            "residual": result.predicted - result.observed,
+        }
+    )
+    files |= _files(result, points) | {"fit.png": png(plot_wlf(result))}
+    return Outcome(text=_heading(result, path) + extra, files=files)
+
+
+def _files(result: FitResult, points: pd.DataFrame) -> dict[str, bytes]:
+    return {"parameters.toml": parameter_text(result).encode(), "fit.csv": _csv(points)}
+
+
+def _csv(table: pd.DataFrame) -> bytes:
+    return table.to_csv(index=False).encode()
+
+
+def _shown(table: pd.DataFrame) -> str:
+    return table.to_string(index=False, float_format=lambda value: f"{value:.5g}")
+
+
+def _heading(result: FitResult, path: str | Path) -> str:
+    about = [f"{result.metadata['kind']} fit of {result.metadata['model']} to {path}"]
+    about += [
+        f"  {key}: {result.metadata[key]}"
+        for key in ("cycle", "branch", "window", "modes", "normalisation", "T_ref_C")
+        if key in result.metadata
+    ]
+    return "\n".join([*about, result.summary()])
+
+
+# -- command line --------------------------------------------------------------------------------
+
+
+def add_arguments(commands: Any) -> None:
+    """Add `calibrate` with its kinds of data to the sub-commands of a parser."""
+    parser = commands.add_parser(
+        "calibrate",
+        help="fit parameters to measurements",
+        description="Fit parameters to measurements and write a parameter file for a case.",
+    )
+    kinds = parser.add_subparsers(metavar="KIND", required=True, dest="kind")
+    for name, (add, description) in KINDS.items():
+        kind = kinds.add_parser(name, help=description, description=f"Fit {description}.")
+        kind.add_argument("data", metavar="DATA.csv", help="measurements")
+        kind.add_argument("-o", "--output", metavar="DIR", help="folder of the results")
+        kind.add_argument("--quiet", action="store_true", help="print nothing but errors")
+        add(kind)
+        kind.set_defaults(command=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run one calibration; bad data end with one line and exit code 2."""
+    directory = Path(arguments.output or Path("results") / "calibration" / arguments.kind)
+    try:
+        outcome: Outcome = arguments.calibrate(arguments)
+        _require_folder(directory)
+    except ValueError as error:
+        # DataError says the file itself; other messages are about the options
+        place = "" if isinstance(error, DataError) else f"{arguments.data}: "
+        print(f"treadfem: {place}{error}", file=sys.stderr)
+        return BAD_INPUT
+    outcome.write(directory)
+    if not arguments.quiet:
+        print(outcome.text)
+        print(f"results in {directory}")
+    return 0
+
+
+def _require_folder(directory: Path) -> None:
+    existing = directory.absolute()
+    while not existing.exists() and existing != existing.parent:
+        existing = existing.parent
+    if not (existing.is_dir() and os.access(existing, os.W_OK | os.X_OK)):
+        raise DataError(file=str(directory), found=f"{existing}", expected="a writable folder")
+
+
+def _add_hyperelastic(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--model", choices=STRESS_MODELS, default="yeoh")
+    parser.add_argument("--cycle", type=_cycle, help='"last-full", "all" or a number')
+    parser.add_argument("--branch", choices=("both", "load", "unload"), default="both")
+    parser.add_argument(
+        "--window", nargs=2, type=float, metavar=("LOW", "HIGH"), help="stretches used"
+    )
+    parser.add_argument("--mode", choices=MODES, action="append", help="may be repeated")
+    parser.add_argument("--weights", choices=("equal", "modes", "relative"), default="equal")
+    _add_common(parser, "N/mm^2")
+
+    def calibrate(arguments: argparse.Namespace) -> Outcome:
+        return calibrate_hyperelastic(
+            arguments.data,
+            model=arguments.model,
+            cycle=arguments.cycle,
+            branch=arguments.branch,
+            window=None if arguments.window is None else tuple(arguments.window),
+            modes=arguments.mode,
+            weights=arguments.weights,
+            noise_N_per_mm2=0.05 if arguments.noise is None else arguments.noise,
+            **_common(arguments),
+        )
+
+    parser.set_defaults(calibrate=calibrate)
+
+
+def _add_friction(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--law", choices=LAWS, default="huemer")
+    parser.add_argument(
+        "--wlf", choices=("none", "given", "fit"), default="none",
+        help="shift of the speed by T_C: none, with --d1 and --d2, or fitted together",
+    )  # fmt: skip
+    parser.add_argument("--d1", type=float, default=CONSTANTS.d1)
+    parser.add_argument("--d2", type=float, default=CONSTANTS.d2_K, metavar="K")
+    parser.add_argument("--T-ref", type=float, default=20.0, metavar="C", dest="T_ref_C")
+    _add_common(parser, "of mu")
+
+    def calibrate(arguments: argparse.Namespace) -> Outcome:
+        shift = {"none": lambda: None, "given": lambda: _wlf(arguments), "fit": lambda: "fit"}
+        return calibrate_friction(
+            arguments.data,
+            law=arguments.law,
+            wlf=shift[arguments.wlf](),
+            T_ref_C=arguments.T_ref_C,
+            noise=0.05 if arguments.noise is None else arguments.noise,
+            **_common(arguments),
+        )
+
+    parser.set_defaults(calibrate=calibrate)
+
+
+def _wlf(arguments: argparse.Namespace) -> WLF:
+    return WLF(d1=arguments.d1, d2_K=arguments.d2)
+
+
+def _add_wlf(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--T-ref", type=float, metavar="C", dest="T_ref_C")
+    parser.set_defaults(
+        calibrate=lambda arguments: calibrate_wlf(arguments.data, T_ref_C=arguments.T_ref_C)
+    )
+
+
+def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
+    parser.add_argument(
+        "--fix", metavar="NAME=VALUE", type=_fixed, action="append", help="hold a parameter"
+    )
+    parser.add_argument("--starts", type=_count, default=20, help="starting points")
+    parser.add_argument(
+        "--loss", choices=("linear", "soft_l1", "huber", "cauchy"), default="linear",
+        help="a robust loss bounds the pull of outliers",
+    )  # fmt: skip
+    parser.add_argument("--noise", type=float, help=f"residual where that begins [{unit}]")
+    parser.add_argument("--no-compare", action="store_true", help="leave out the other models")
+
+
+def _common(arguments: argparse.Namespace) -> dict[str, Any]:
+    fixed = None if arguments.fix is None else dict(arguments.fix)
+    return {
+        "fixed": fixed,
+        "starts": arguments.starts,
+        "loss": arguments.loss,
+        "compare": not arguments.no_compare,
+    }
+
+
+def _cycle(text: str) -> str | int:
+    return text if text in ("last-full", "all") else int(text)
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text} starts; expected 1 or more")
+    return number
+
+
+def _fixed(text: str) -> tuple[str, float]:
+    name, _, value = text.partition("=")
+    return name.strip(), float(value)
+
+
+KINDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
+    "hyperelastic": (_add_hyperelastic, "a hyperelastic model to stress-stretch tests"),
+    "friction": (_add_friction, "a friction law to friction coefficients"),
+    "wlf": (_add_wlf, "the WLF shift to shift factors or frequency sweeps"),
+}

@@ -1,0 +1,160 @@
+"""Pictures of fits: data, fitted curve and residuals."""
+
+from io import BytesIO
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from calibration.fit_core import FitResult
+from calibration.friction import FrictionData
+from calibration.hyperelastic import StressData
+from calibration.wlf import MasterCurve
+
+Array = NDArray[np.float64]
+
+# Okabe and Ito's colours, which readers with any colour vision can tell apart
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+_MODES = {
+    "uniaxial": ("o", COLOURS[0]),
+    "equibiaxial": ("s", COLOURS[1]),
+    "planar": ("^", COLOURS[2]),
+}
+
+
+def png(figure: Figure) -> bytes:
+    """PNG of a figure, the same bytes for the same figure."""
+    stream = BytesIO()
+    figure.savefig(stream, format="png", dpi=150, metadata={"Software": None})
+    return stream.getvalue()
+
+
+def plot_hyperelastic(result: FitResult, data: StressData) -> Figure:
+    """Stress-stretch points with the fitted curve by mode, and the residuals below."""
+    figure, (above, below) = _panels()
+    residual = result.predicted - result.observed
+    for mode, (low, high) in data.window.items():
+        marker, colour = _MODES[mode]
+        here = data.mode == mode
+        dots = {"marker": marker, "color": colour, "linestyle": "none", "markersize": 4}
+        above.plot(data.stretch[here], data.stress[here], alpha=0.6, label=f"{mode}, data", **dots)
+        lam = np.linspace(min(low, 1.0), max(high, 1.0), 300)
+        curve = result.model.nominal_stress(lam, mode)
+        above.plot(lam, curve, color=colour, label=f"{mode}, fit")
+        below.plot(data.stretch[here], residual[here], alpha=0.6, **dots)
+    name = result.metadata["model"]
+    above.set_title(f"{name}: RMSE {result.rmse:.3g} N/mm², R² {result.r2:.4f}", fontsize=10)
+    above.set_ylabel("nominal stress [N/mm²]")
+    above.legend(fontsize=8)
+    below.set_xlabel("stretch [-]")
+    below.set_ylabel("fit - data [N/mm²]")
+    return figure
+
+
+def plot_friction(result: FitResult, data: FrictionData) -> Figure:
+    """Friction coefficient over the equivalent speed, by pressure, and the residuals below."""
+    figure, (above, below) = _panels()
+    law, residual = result.model, result.predicted - result.observed
+    speed = data.v
+    if law.wlf is not None and data.T is not None:
+        speed = law.wlf.equivalent_velocity(data.v, data.T, law.T_ref_C)
+    v = np.geomspace(speed.min(), speed.max(), 300)
+    for i, pressure in enumerate(_groups(data.p)):
+        colour = COLOURS[i % len(COLOURS)]
+        here = np.isclose(data.p, pressure) if np.unique(data.p).size <= 7 else _nearest(data.p, i)
+        dots = {"marker": "o", "color": colour, "linestyle": "none", "markersize": 3, "alpha": 0.5}
+        above.plot(speed[here], data.mu[here], **dots)
+        curve = law.law.coefficient(pressure, v)
+        above.plot(v, curve, color=colour, label=f"p = {pressure:.3g} N/mm²")
+        below.plot(speed[here], residual[here], **dots)
+    above.set_xscale("log")
+    title = f"{result.metadata['model']} law: RMSE {result.rmse:.3g}, R² {result.r2:.4f}"
+    above.set_title(title, fontsize=10)
+    above.set_ylabel("friction coefficient μ [-]")
+    above.legend(fontsize=8)
+    shifted = law.wlf is not None
+    below.set_xlabel(
+        f"equivalent speed at {law.T_ref_C:g} °C [mm/s]" if shifted else "sliding speed [mm/s]"
+    )
+    below.set_ylabel("fit - data [-]")
+    return figure
+
+
+def _groups(p: Array) -> Array:
+    """The pressures themselves when they are few, else five that stand for them."""
+    levels = np.unique(p)
+    return levels if levels.size <= 7 else np.quantile(p, [0.1, 0.3, 0.5, 0.7, 0.9])
+
+
+def _nearest(p: Array, i: int) -> NDArray[np.bool_]:
+    """Points that belong to the i-th of the five representative pressures."""
+    return np.asarray(np.argmin(np.abs(p[:, None] - _groups(p)), axis=1) == i)
+
+
+def plot_wlf(result: FitResult) -> Figure:
+    """Shift factors over temperature with the WLF curve, and the residuals below."""
+    figure, (above, below) = _panels()
+    T = result.metadata["T_C"]
+    dots = {"marker": "o", "color": COLOURS[0], "linestyle": "none", "markersize": 4}
+    offset = result.values["offset"]
+    above.plot(T, result.observed - offset, label="data", **dots)
+    fine = np.linspace(min(T), max(T), 300)
+    reference = result.metadata["T_ref_C"]
+    curve = result.model.log10_shift_factor(fine, reference)
+    d1, d2 = result.values["d1"], result.values["d2_K"]
+    label = f"$d_1$ = {d1:.4g}, $d_2$ = {d2:.4g} K, $T_{{ref}}$ = {reference:g} °C"
+    above.plot(fine, curve, color=COLOURS[1], label=label)
+    below.plot(T, result.predicted - result.observed, **dots)
+    above.set_ylabel(r"$\log_{10} a_T$ [-]")
+    above.legend(fontsize=8)
+    below.set_xlabel("temperature [°C]")
+    below.set_ylabel("fit - data [-]")
+    return figure
+
+
+def plot_master_curve(master: MasterCurve) -> Figure:
+    """Modulus over reduced frequency, a colour per temperature."""
+    figure = _figure(5.0)
+    axes = figure.add_subplot()
+    temperatures = master.shifts["T_C"].to_numpy()
+    span = max(float(np.ptp(temperatures)), 1e-9)
+    for T, sweep in master.curve.groupby("T_C"):
+        shade = (float(str(T)) - temperatures.min()) / span
+        colour = (0.85 * shade + 0.05, 0.25, 0.9 - 0.8 * shade)
+        x, y = sweep["reduced_frequency_Hz"], sweep["modulus_N_per_mm2"]
+        axes.plot(x, y, "o-", color=colour, markersize=3, linewidth=0.8, label=f"{T:g} °C")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel(f"reduced frequency at {master.T_ref_C:g} °C [Hz]")
+    axes.set_ylabel("modulus [N/mm²]")
+    axes.set_title(f"overlap error {master.overlap_error:.2g} decades", fontsize=10)
+    axes.legend(fontsize=7, ncols=2)
+    return figure
+
+
+def plot_comparison(table: pd.DataFrame, value: str, unit: str) -> Figure:
+    """Bars of a measure of misfit by model."""
+    figure = _figure(3.5)
+    axes = figure.add_subplot()
+    ordered = table.dropna(subset=[value]).iloc[::-1]
+    axes.barh(ordered.iloc[:, 0].astype(str), ordered[value], color=COLOURS[0])
+    axes.set_xlabel(f"RMSE [{unit}]")
+    return figure
+
+
+def _panels() -> tuple[Figure, tuple[Axes, Axes]]:
+    figure = _figure(6.0)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
+    below.axhline(0.0, color="0.5", linewidth=0.8)
+    for axes in (above, below):
+        axes.grid(True, color="0.9")
+    return figure, (above, below)
+
+
+def _figure(height: float) -> Figure:
+    figure = Figure(figsize=(6.4, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
