@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from fem.case import Case
+from fem import Case, simulate
 from fem.case_errors import CaseError
 from fem.case_reading import parse_override
 from fem.template import case_template
@@ -23,8 +23,7 @@ from fem.template import case_template
 DONE, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 0, 2, 3, 130
 _STATUS_CODES = {"ok": DONE, "interrupted": INTERRUPTED}
 
-# The commands import simulation, calibration and figures when they run: `check`, `template` and
-# `--help` then answer at once instead of after the second that scipy and matplotlib take to load.
+# What draws or fits is imported by the commands that need it: matplotlib takes a second to load.
 
 
 class _Parser(argparse.ArgumentParser):
@@ -119,10 +118,7 @@ def _run(arguments: argparse.Namespace) -> int:
     directory = Path(arguments.output or Path("results") / Path(arguments.case).stem)
     _check_writable(directory)
 
-    from fem.simulate import simulate
-
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    with _Progress(case, quiet=arguments.quiet) as progress:
+    with _Progress(case, quiet=arguments.quiet) as progress, _Interruptible(progress):
         result = simulate(case, progress=progress)
     result.write(directory)
     if case.output.figures:
@@ -145,6 +141,34 @@ def _check_writable(directory: Path) -> None:
     )
 
 
+class _Interruptible:
+    """Turns Ctrl-C (or a request to terminate) into a stop after the step that is under way.
+
+    A second one stops at once. Either way the simulation hands back what was accepted.
+    """
+
+    _SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+    def __init__(self, progress: _Progress) -> None:
+        self.progress = progress
+
+    def __enter__(self) -> None:
+        # A process started in the background ignores Ctrl-C, and has to go on ignoring it.
+        self.before = {n: signal.getsignal(n) for n in self._SIGNALS}
+        for number, handler in self.before.items():
+            if handler is not signal.SIG_IGN:
+                signal.signal(number, self._stop)
+
+    def __exit__(self, *exc: object) -> None:
+        for number, handler in self.before.items():
+            signal.signal(number, handler)
+
+    def _stop(self, number: int, frame: object) -> None:
+        if self.progress.stop:
+            raise KeyboardInterrupt
+        self.progress.stop = True
+
+
 class _Progress:
     """Shows how far the simulation is: a bar on a terminal, a line per tenth elsewhere."""
 
@@ -152,6 +176,7 @@ class _Progress:
         self.distance = case.loading.distance_mm
         self.quiet = quiet
         self.tenths = 0
+        self.stop = False
         self.bar: Any = None
 
     def __enter__(self) -> _Progress:
@@ -174,6 +199,8 @@ class _Progress:
             self.tenths = int(10.0 * done / self.distance + 1e-9)
             print(f"{10 * self.tenths:4d} %  {done:8.2f} mm  T_max {state.T_max_C:6.2f} C")
             sys.stdout.flush()
+        if self.stop:
+            raise KeyboardInterrupt
 
 
 _BAR = "{percentage:3.0f} %|{bar}| {n:.1f}/{total:g} mm [{elapsed}<{remaining}]{postfix}"

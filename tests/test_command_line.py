@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 
 import pytest
 
 import treadfem
 from fem.case import Case
+from fem.case_reading import parse_override
 from tests.wrong_cases import LOADING, SET_SYNTAX, WRONG_CASES, WrongCase
 
 ROOT = Path(__file__).parents[1]
@@ -68,9 +70,7 @@ def stub(monkeypatch):
     """Replace the simulation; returns a function that sets the stub in place."""
 
     def install(simulation):
-        module = ModuleType("fem.simulate")
-        module.simulate = simulation.simulate
-        monkeypatch.setitem(sys.modules, "fem.simulate", module)
+        monkeypatch.setattr(treadfem, "simulate", simulation.simulate)
         return simulation
 
     return install
@@ -207,6 +207,60 @@ def test_interrupt_before_anything_was_accepted_gives_code_130(case_file, capsys
     assert not Path("out").exists()
 
 
+TINY = [
+    "block.mesh={cells_x = 12, cells_y = 5, smallest_x_mm = 0.8, smallest_y_mm = 0.6}",
+    "loading.distance_mm=0.3",
+    "output.snapshots=1",
+    "output.figures=true",
+]
+
+
+def settings(*texts: str) -> list[str]:
+    """Words of overrides."""
+    return [word for text in texts for word in ("--set", text)]
+
+
+def test_tiny_real_case_leaves_every_file(case_file, capsys):
+    assert command("run", case_file, "-o", "out", *settings(*TINY)) == 0
+    found = {path.name for path in Path("out").rglob("*")}
+    tables = {"case.toml", "run.log", "history.csv", "surface.csv", "summary.json", "summary.csv"}
+    pictures = {"history.png", "surface.png", "final_state.png"}
+    assert tables | pictures | {"block.pvd", "road.pvd"} <= found
+    assert json.loads(Path("out/summary.json").read_text())["status"] == "ok"
+    assert Case.from_toml("out/case.toml") == Case.from_toml(
+        case_file, dict(parse_override(text) for text in TINY)
+    )
+
+
+def test_real_case_that_cannot_converge_gives_code_3_with_reason_and_advice(case_file, capsys):
+    hopeless = ["solver.newton_iterations_max=1", "solver.step_mm_min=0.02"]
+    assert command("run", case_file, "-o", "out", *settings(*TINY, *hopeless)) == 3
+    assert len(capsys.readouterr().err.splitlines()) == 1
+    summary = json.loads(Path("out/summary.json").read_text())
+    assert summary["status"] == "not converged"
+    assert summary["reason"]
+    assert summary["advice"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_signal_stops_a_real_run_and_keeps_what_was_accepted(number, case_file):
+    words = [sys.executable, "-m", "treadfem", "run", str(case_file), "-o", str(Path("out"))]
+    far = ["loading.distance_mm=400.0", "output.figures=false"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    pipe = subprocess.PIPE
+    with subprocess.Popen(
+        [*words, *settings(*TINY, *far)], env=environment, stdout=pipe, stderr=pipe, text=True
+    ) as run:
+        assert run.stdout is not None
+        assert "10 %" in run.stdout.readline()
+        run.send_signal(number)
+        _, errors = run.communicate(timeout=120)
+    assert run.returncode == 130, errors
+    assert len(errors.splitlines()) == 1
+    assert json.loads(Path("out/summary.json").read_text())["status"] == "interrupted"
+    assert len(Path("out/history.csv").read_text().splitlines()) > 1
+
+
 # -- check, template -------------------------------------------------------------------------------
 
 
@@ -235,7 +289,6 @@ def test_every_example_passes_the_check(example, capsys):
 
 
 def test_unknown_figure_is_refused(capsys, tmp_path):
-    pytest.importorskip("validation.figures")
     assert command("figure", "1000", "-o", tmp_path / "out") == 2
     printed = capsys.readouterr()
     assert "1000" in printed.err
