@@ -1,0 +1,98 @@
+"""Direct solution: residual, fallback to pivoting, singular systems."""
+
+import numpy as np
+import pytest
+from scipy.sparse import csc_matrix, diags, kron, random
+from scipy.sparse.linalg import splu
+
+from fem.linear_solver import SingularSystemError, SuperLUSolver, fill_reducing_order
+
+
+def dominant(size=200, seed=1):
+    """Unsymmetric matrix of symmetric pattern with a strong diagonal."""
+    rng = np.random.default_rng(seed)
+    pattern = random(size, size, 0.02, random_state=rng)
+    A = (pattern + pattern.T).tocsc()
+    A.data *= rng.uniform(0.5, 1.5, A.nnz)
+    return (A + diags(np.full(size, 10.0))).tocsc()
+
+
+def test_solution_has_a_residual_at_rounding():
+    A, b = dominant(), np.random.default_rng(2).normal(size=200)
+    x = SuperLUSolver().solve(A, b)
+    assert np.abs(A @ x - b).max() < 1e-12
+
+
+def test_the_right_hand_side_and_the_matrix_are_not_changed():
+    A, b = dominant(), np.ones(200)
+    data = A.data.copy()
+    SuperLUSolver().solve(A, b)
+    np.testing.assert_array_equal(A.data, data)
+    np.testing.assert_array_equal(b, np.ones(200))
+
+
+def test_a_zero_diagonal_is_solved_all_the_same():
+    """A saddle point has no diagonal pivots; symmetric mode alone would break down."""
+    A = csc_matrix(np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 2.0], [0.0, 3.0, 1.0]]))
+    b = np.array([1.0, 2.0, 3.0])
+    x = SuperLUSolver().solve(A, b)
+    np.testing.assert_allclose(A @ x, b, atol=1e-13)
+
+
+def test_small_diagonal_pivots_do_not_spoil_the_solution():
+    """Diagonal pivots of 1e-14 lose all digits; the check must catch that."""
+    rng = np.random.default_rng(5)
+    A = rng.normal(size=(60, 60))
+    np.fill_diagonal(A, 1e-14)
+    b = rng.normal(size=60)
+    x = SuperLUSolver().solve(csc_matrix(A), b)
+    np.testing.assert_allclose(x, np.linalg.solve(A, b), rtol=1e-7)
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [np.zeros((3, 3)), np.ones((3, 3)), np.diag([1.0, 1.0, 0.0])],
+    ids=["zero", "rank-one", "empty-row"],
+)
+def test_a_singular_matrix_is_named_so(matrix):
+    with pytest.raises(SingularSystemError, match="singular"):
+        SuperLUSolver().solve(csc_matrix(matrix), np.array([1.0, 2.0, 3.0]))
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_values_that_are_not_finite_are_refused(bad):
+    A, b = dominant(), np.ones(200)
+    b[3] = bad
+    with pytest.raises(SingularSystemError, match="finite"):
+        SuperLUSolver().solve(A, b)
+    A.data[5] = bad
+    with pytest.raises(SingularSystemError, match="finite"):
+        SuperLUSolver().solve(A, np.ones(200))
+
+
+def test_the_error_is_an_arithmetic_error_as_newton_expects():
+    assert issubclass(SingularSystemError, ArithmeticError)
+
+
+def test_work_is_counted():
+    solver = SuperLUSolver()
+    solver.solve(dominant(), np.ones(200))
+    solver.solve(dominant(), np.ones(200))
+    assert solver.factorisations >= 2
+    assert solver.seconds > 0.0
+
+
+def test_fill_reducing_order_is_a_permutation_that_reduces_the_fill():
+    n = 20
+    line = diags([-1.0, 2.2, -1.0], [-1, 0, 1], shape=(n, n))
+    identity = diags([1.0], [0], shape=(n, n))
+    grid = (kron(line, identity) + kron(identity, line)).tocsc()
+    shuffled = np.random.default_rng(6).permutation(n * n)
+    A = grid[shuffled][:, shuffled].tocsc()
+    order = fill_reducing_order(A)
+    assert sorted(order) == list(range(n * n))
+
+    def fill(matrix):
+        return splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0).L.nnz
+
+    assert fill(A[order][:, order]) < 0.5 * fill(A)
