@@ -6,9 +6,9 @@ plane cross-section is meshed with bilinear quadrilaterals (the centre line is a
 Copper and rubber share their nodes; rubber and asphalt are joined by the gap conductance h.
 
 With losses proportional to the temperature above ambient the model is linear,
-M dT/dt + (K + h K_gap) T = b u(t), with u the heater's power or its temperature. It is integrated by
-the L-stable diagonally implicit Runge-Kutta method of order two with gamma = 1 - 1/sqrt(2) [1]_:
-both stages use one matrix, and a switched heater does not make it ring.
+M dT/dt + (K + h K_gap) T = b u(t), with u the heater's power or its temperature. It is integrated
+by the L-stable diagonally implicit Runge-Kutta method of order two with gamma = 1 - 1/sqrt(2)
+[1]_: both stages use one matrix, and a switched heater does not make it ring.
 
 The dimensions in the figure of the paper are not available; the defaults are those of the sliding
 block of this project on an asphalt block of stated, plausible size. Give the real ones.
@@ -411,7 +411,7 @@ def _body_matrices(
     K = conduction.assemble(basis, k=k[:, None] * np.ones_like(basis.dx))
     quarter = 0.25 * capacity * basis.dx.sum(axis=1)
     C = np.bincount(mesh.t.ravel(), weights=np.tile(quarter, 4), minlength=mesh.nvertices)
-    return K.tocoo(), C
+    return K.tocoo(), C.astype(np.float64, copy=False)
 
 
 def _interval(lines: Array, value: float) -> tuple[int, float]:
