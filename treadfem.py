@@ -37,7 +37,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
     try:
-        arguments = _parser().parse_args(words)
+        arguments = _parser(words[0] if words else "").parse_args(words)
         code = int(arguments.command(arguments))
         sys.stdout.flush()
         return code
@@ -53,7 +53,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return DONE
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser(command: str) -> argparse.ArgumentParser:
     parser = _Parser(
         prog="treadfem", description="Sliding rubber tread block with friction and heat."
     )
@@ -62,6 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_run(commands)
     _add_check(commands)
     _add_template(commands)
+    _add_calibrate(commands, wanted=command == "calibrate")
     _add_figure(commands)
     return parser
 
@@ -260,6 +261,18 @@ def _add_template(commands: Any) -> None:
 def _template(arguments: argparse.Namespace) -> int:
     sys.stdout.write(case_template())
     return DONE
+
+
+# -- calibrate ---------------------------------------------------------------------------------
+
+
+def _add_calibrate(commands: Any, *, wanted: bool) -> None:
+    if wanted:
+        from calibration.commands import add_arguments
+
+        add_arguments(commands)
+    else:
+        commands.add_parser("calibrate", help="fit parameters to measurements")
 
 
 # -- figure ------------------------------------------------------------------------------------

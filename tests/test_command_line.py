@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -286,6 +287,34 @@ def test_template_passes_the_check(words, tmp_path, capsys):
 )
 def test_every_example_passes_the_check(example, capsys):
     assert command("check", example) == 0
+
+
+def test_fitted_rubber_goes_straight_into_a_run(case_file, capsys):
+    data = ROOT / "calibration" / "datasets" / "treloar1944.csv"
+    fit = ["--model", "mooney-rivlin", "--window", "1", "2", "--starts", "1", "--no-compare"]
+    assert command("calibrate", "hyperelastic", data, *fit, "-o", "fit", "--quiet") == 0
+    fitted = settings("rubber.parameters=fit/parameters.toml", *TINY, "output.figures=false")
+    assert command("run", case_file, "-o", "out", *fitted, "--quiet") == 0
+    assert Case.from_toml("out/case.toml").rubber.model_name == "mooney-rivlin"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["calibrate"], ["calibrate", "rubber"], ["calibrate", "friction", "missing.csv"]],
+    ids=" ".join,
+)
+def test_wrong_calibration_gives_one_line_and_writes_nothing(words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert command(*words) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert contents(tmp_path) == {}
+
+
+def test_help_lists_every_command(capsys):
+    assert command("--help") == 0
+    shown = capsys.readouterr().out
+    for name in ("run", "check", "template", "calibrate", "figure"):
+        assert re.search(rf"^    {name}\b", shown, flags=re.MULTILINE)
 
 
 def test_unknown_figure_is_refused(capsys, tmp_path):

@@ -30,7 +30,7 @@ def commands(program: str) -> list[list[str]]:
 
 @pytest.mark.parametrize("words", commands("treadfem"), ids=" ".join)
 def test_command_is_understood(words):
-    treadfem._parser().parse_args(words)
+    treadfem._parser(words[0]).parse_args(words)
 
 
 def test_the_way_from_template_to_check_works(tmp_path, monkeypatch, capsys):
