@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from validation import fig4, fig7, fig8, fig9, fig10, fig11, fig12
+from validation import fig2, fig3, fig4, fig7, fig8, fig9, fig10, fig11, fig12
 
 #: Number of the figure to the function that draws it into a folder and returns the picture's path.
 #: Figures 1 and 5 of the paper are a sketch and photographs.
 FIGURES: dict[int, Callable[[Path], Path]] = {
+    2: fig2.make,
+    3: fig3.make,
     4: fig4.make,
     7: fig7.make,
     8: fig8.make,

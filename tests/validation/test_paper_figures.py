@@ -1,0 +1,148 @@
+"""Figures 2-4 and 9-12 from synthetic tests and made-up runs: labelled, complete, not cut off."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+from calibration.synthetic import synthetic_bar_cycles, synthetic_dumbbell_cycles
+from fem.case import Case
+from fem.results import Result
+from tests.made_up_result import made_up_result
+from tests.validation.checks import assert_labelled, assert_nothing_overlaps
+from validation import fig2, fig3, fig4, fig9, fig10, fig11, fig12
+from validation.compound_names import COMPOUND_LOOKS
+from validation.figures import make_figure
+from validation.stress_panels import chosen_cycle, set_table
+from validation.study import StudyCase, StudyRun
+
+
+def made_up_run(**overrides: object) -> StudyRun:
+    """A run that says it is of the given case keys; the fields are made up."""
+    keys = {key.replace("__", "."): value for key, value in overrides.items()}
+    base = {
+        "loading": {
+            "mean_pressure_N_per_mm2": 0.25,
+            "velocity_mm_per_s": 300.0,
+            "distance_mm": 120.0,
+        }
+    }
+    case = Case.from_dict(base, overrides=keys)
+    result = made_up_result()
+    summary = result.summary | {
+        "mean_contact_pressure_N_per_mm2": 1.2 * case.loading.mean_pressure_N_per_mm2,
+        "T_max_C": 20.0 + 1.4 * case.loading.velocity_mm_per_s**0.5,
+    }
+    result = Result.from_rows(
+        case,
+        result.geometry,
+        result.history.to_dict("records"),
+        result.surface,
+        summary,
+        result.snapshots,
+    )
+    return StudyRun(study_case=StudyCase(name="made-up", overrides=keys, case=case), result=result)
+
+
+@pytest.fixture(scope="module")
+def compound_runs() -> list[StudyRun]:
+    return [made_up_run(rubber__compound=name) for name in COMPOUND_LOOKS]
+
+
+@pytest.mark.parametrize("number", [2, 3, 4])
+def test_figures_without_runs_come_with_their_tables(number, tmp_path):
+    path = make_figure(number, tmp_path)
+    assert path.is_file()
+    assert path.with_suffix(".csv").is_file()
+    assert not list(tmp_path.glob(".*"))
+
+
+def test_synthetic_data_are_called_so_in_file_and_figure(tmp_path):
+    for number in (2, 3):
+        make_figure(number, tmp_path)
+    assert len(list(tmp_path.glob("fig*synthetic*.csv"))) == 2
+    for figure in (
+        fig2.draw(synthetic_dumbbell_cycles()),
+        fig3.draw({1: synthetic_bar_cycles(1), 2: synthetic_bar_cycles(2)}),
+    ):
+        assert "not measured" in figure.get_suptitle()
+
+
+@pytest.mark.parametrize("test", [synthetic_bar_cycles(1), synthetic_bar_cycles(2)])
+def test_the_chosen_cycle_is_the_fifth_not_the_path_to_failure(test):
+    assert chosen_cycle(test) == 5
+    assert test["cycle"].max() == 6
+
+
+def test_stress_of_the_sets_is_zero_at_rest_and_missing_beyond_a_locking_stretch():
+    table = set_table((0.0, 370.0))
+    assert np.allclose(table.iloc[0].to_numpy()[1:], 0.0)
+    locked = table["van-der-waals-bars-series-1"].isna()
+    assert locked.any()
+    assert (table["stretch"][locked] > 3.0).all()
+
+
+def test_figure_4_shows_the_peak_of_the_second_law_and_none_of_the_first():
+    table = fig4.friction_table()
+    at = table[np.isclose(table["p_N_per_mm2"], table["p_N_per_mm2"].min())]
+    v = at["v_mm_per_s"].to_numpy()
+    assert v[at["mu_huemer"].argmax()] == pytest.approx(26.5, rel=0.05)
+    assert at["mu_exponential"].argmax() == len(v) - 1
+
+
+def test_figure_9_gives_the_extremes_of_the_elements(compound_runs):
+    states = fig9.by_compound(compound_runs)
+    assert list(states) == list(COMPOUND_LOOKS)
+    table = fig9.extremes_table(states)
+    sigma_y = compound_runs[0].result.snapshots[-1].cauchy_stress[:, 1]
+    assert table["sigma_y_min_N_per_mm2"].iloc[0] == sigma_y.min()
+    assert table["sigma_y_max_N_per_mm2"].iloc[0] == sigma_y.max()
+
+
+def test_figure_9_contour_runs_along_the_free_boundary(compound_runs):
+    state = fig9.by_compound(compound_runs)["yeoh-bars-series-1"]
+    contour = fig9.contour(state)
+    top = state.points[:, 1].max()
+    assert contour[0, 1] == pytest.approx(top)
+    assert contour[-1, 1] == pytest.approx(top)
+    assert contour[0, 0] < contour[-1, 0]
+    assert len(contour) == 48 + 2 * 20 + 1
+
+
+def test_pictures_from_runs_are_labelled_and_nothing_overlaps(compound_runs):
+    laws = ("huemer", "exponential")
+    velocity_runs = [
+        made_up_run(loading__velocity_mm_per_s=v, friction__law=law)
+        for v, law in itertools.product((7.0, 50.0, 300.0), laws)
+    ]
+    pressure_runs = [
+        made_up_run(
+            loading__mean_pressure_N_per_mm2=p,
+            loading__velocity_mm_per_s=v,
+            friction__law=law,
+            rubber__compound=name,
+        )
+        for p, v, law, name in itertools.product(
+            (0.1667, 0.25, 0.3333), (7.0, 300.0), laws, list(COMPOUND_LOOKS)[:2]
+        )
+    ]
+    for figure in (
+        fig2.draw(synthetic_dumbbell_cycles()),
+        fig3.draw({1: synthetic_bar_cycles(1), 2: synthetic_bar_cycles(2)}),
+        fig4.draw(fig4.friction_table()),
+        fig9.draw(fig9.by_compound(compound_runs)),
+        fig10.draw(compound_runs),
+        fig11.draw(velocity_runs),
+        fig12.draw(fig12.point_table(pressure_runs)),
+    ):
+        assert_labelled(figure)
+        assert_nothing_overlaps(figure)
+
+
+def test_figure_12_has_a_point_per_run():
+    runs = [made_up_run(loading__mean_pressure_N_per_mm2=p) for p in (0.2, 0.3)]
+    table = fig12.point_table(runs)
+    assert table["mean_contact_pressure_N_per_mm2"].tolist() == pytest.approx([0.24, 0.36])
+    assert set(table["compound"]) == {"yeoh-bars-series-1-load"}
