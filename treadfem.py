@@ -55,7 +55,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _parser(command: str) -> argparse.ArgumentParser:
     parser = _Parser(
-        prog="treadfem", description="Sliding rubber tread block with friction and heat."
+        prog="treadfem",
+        description="Sliding rubber tread block with friction and heat.",
+        formatter_class=lambda prog: argparse.HelpFormatter(prog, max_help_position=28),
     )
     parser.add_argument("--version", action="version", version=f"treadfem {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
