@@ -8,42 +8,13 @@ import numpy as np
 import pytest
 
 from calibration.synthetic import synthetic_bar_cycles, synthetic_dumbbell_cycles
-from fem.case import Case
-from fem.results import Result
-from tests.made_up_result import made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
+from tests.validation.made_up_run import made_up_run
 from validation import fig2, fig3, fig4, fig9, fig10, fig11, fig12
 from validation.compound_names import COMPOUND_LOOKS
 from validation.figures import make_figure
 from validation.stress_panels import chosen_cycle, set_table
-from validation.study import StudyCase, StudyRun
-
-
-def made_up_run(**overrides: object) -> StudyRun:
-    """A run that says it is of the given case keys; the fields are made up."""
-    keys = {key.replace("__", "."): value for key, value in overrides.items()}
-    base = {
-        "loading": {
-            "mean_pressure_N_per_mm2": 0.25,
-            "velocity_mm_per_s": 300.0,
-            "distance_mm": 120.0,
-        }
-    }
-    case = Case.from_dict(base, overrides=keys)
-    result = made_up_result()
-    summary = result.summary | {
-        "mean_contact_pressure_N_per_mm2": 1.2 * case.loading.mean_pressure_N_per_mm2,
-        "T_max_C": 20.0 + 1.4 * case.loading.velocity_mm_per_s**0.5,
-    }
-    result = Result.from_rows(
-        case,
-        result.geometry,
-        result.history.to_dict("records"),
-        result.surface,
-        summary,
-        result.snapshots,
-    )
-    return StudyRun(study_case=StudyCase(name="made-up", overrides=keys, case=case), result=result)
+from validation.study import StudyRun
 
 
 @pytest.fixture(scope="module")
