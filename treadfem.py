@@ -57,7 +57,6 @@ def _parser(command: str) -> argparse.ArgumentParser:
     parser = _Parser(
         prog="treadfem",
         description="Sliding rubber tread block with friction and heat.",
-        formatter_class=lambda prog: argparse.HelpFormatter(prog, max_help_position=28),
     )
     parser.add_argument("--version", action="version", version=f"treadfem {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
