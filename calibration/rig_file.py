@@ -3,7 +3,9 @@
 The file has a table ``[rig]`` with the attributes of `HeatingRig` as keys (unit in the name), a
 table per material ``[rig.rubber]``, ``[rig.copper]``, ``[rig.asphalt]`` with the thermal keys of a
 case file, and ``[rig.thermocouples]`` with ``C1 = {x_mm = 0.0, y_mm = 7.0}`` and so on. What is
-left out keeps its default; given thermocouples replace all of the default ones.
+left out keeps its default; given thermocouples replace all of the default ones. A table
+``[surface]`` with the attributes of `ContactSurface` is optional; with it the constant C of
+eq. (11) follows.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from typing import Any
 
 from calibration.errors import DataError
 from calibration.heating_rig import HeatingRig, Thermocouple
+from contact.conductance import ContactSurface
 from materials.thermal import ThermalProperties
 
 MATERIALS = ("rubber", "copper", "asphalt")
@@ -33,7 +36,9 @@ def read_heating_rig(path: str | Path) -> HeatingRig:
         In one line: file, key, what was found and what was expected.
     """
     path = Path(path)
-    rig = _table(path, _read(path), "rig", "[rig]")
+    content = _read(path)
+    _check_keys(path, content, ["rig", "surface"], "the file")
+    rig = _table(path, content, "rig", "[rig]")
     numbers = [f.name for f in fields(HeatingRig) if f.name not in (*MATERIALS, "thermocouples")]
     _check_keys(path, rig, [*numbers, *MATERIALS, "thermocouples"], "[rig]")
     given: dict[str, Any] = {
@@ -51,6 +56,22 @@ def read_heating_rig(path: str | Path) -> HeatingRig:
         return HeatingRig(**given)
     except ValueError as error:
         raise DataError(file=str(path), found=str(error), expected="a rig that fits") from None
+
+
+def read_contact_surface(path: str | Path) -> ContactSurface | None:
+    """Read the table ``[surface]`` of a rig file; None without one."""
+    path = Path(path)
+    content = _read(path)
+    if "surface" not in content:
+        return None
+    keys = tuple(f.name for f in fields(ContactSurface))
+    values = _numbers(path, content, "surface", keys)
+    try:
+        return ContactSurface(**values)
+    except ValueError as error:
+        raise DataError(
+            file=str(path), column="[surface]", found=str(error), expected="a rough surface"
+        ) from None
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -201,7 +201,7 @@ class HeatModel:
         heat_step_mm: float = 0.5,
         road_grid: RoadGrid | None = None,
         reuse_tolerance: float = 0.02,
-        exchange_tolerance_K: float = 1e-6,
+        exchange_tolerance_K: float = 1e-5,
     ) -> None:
         if not heat_step_mm > 0.0:
             raise ValueError(f"heat_step_mm = {heat_step_mm}, expected above 0")
