@@ -135,14 +135,32 @@ def fit_hyperelastic(
     held = dict(law.held if fixed is None else fixed)
     _require_points(data, law, model, held)
     kin = data.kinematics
-    result = fit(
-        stress_problem(law, data, kin, weights),
-        law.starts(kin, data.stress, starts, np.random.default_rng(seed)),
-        fixed=held,
-        loss=loss,
-        noise=noise_N_per_mm2,
-    )
+    problem = stress_problem(law, data, kin, weights)
+    begin = law.starts(kin, data.stress, starts, np.random.default_rng(seed))
+    result = fit(problem, begin, fixed=held, loss=loss, noise=noise_N_per_mm2)
+    if not law.admissible(result.values):
+        result = _narrowed(result, law, problem, kin, begin, held, loss, noise_N_per_mm2)
     return _completed(result, model, law, data, weights)
+
+
+def _narrowed(
+    first: FitResult,
+    law: StressModel,
+    problem: Problem,
+    kin: Kinematics,
+    begin: Array,
+    held: Mapping[str, float],
+    loss: Loss,
+    noise: float,
+) -> FitResult:
+    """Fit again between bounds that leave only admissible energies."""
+    lower, upper = law.narrow_bounds(kin)
+    result = fit(
+        replace(problem, lower=lower, upper=upper), begin, fixed=held, loss=loss, noise=noise
+    )
+    constants = ", ".join(f"{name} = {value:.4g}" for name, value in first.values.items())
+    warning = f"the best fit, {constants}, is no admissible energy: its constants were bounded by 0"
+    return replace(result, warnings=(*result.warnings, warning))
 
 
 def stress_problem(
@@ -245,6 +263,7 @@ def select_data(
         used.refuse_at(
             0, "nominal_stress_N_per_mm2", "zero in every row", "stresses in N/mm^2, not all zero"
         )
+    _check_sign(used, stretch[keep], stress[keep])
     selection = {
         "cycle": cycle_label,
         "branch": branch,
@@ -273,6 +292,16 @@ def _check_stretch(source: Table, stretch: Array, stress: Array) -> None:
         i = int(np.flatnonzero(pulled)[0])
         found = f"{stretch[i]:g} with the tensile stress {stress[i]:g} N/mm^2"
         source.refuse_at(i, "stretch", found, "a stretch (1 = undeformed); these look like strains")
+
+
+def _check_sign(used: Table, stretch: Array, stress: Array) -> None:
+    """Refuse data whose stress mostly points against the stretch."""
+    against = (stretch - 1.0) * stress < 0.0
+    if np.count_nonzero(against) > 0.5 * stretch.size:
+        i = int(np.flatnonzero(against)[0])
+        kind, sign = ("tensile", "positive") if stretch[i] > 1.0 else ("compressive", "negative")
+        found = f"{stress[i]:g} at the {kind} stretch {stretch[i]:g}, and mostly so"
+        used.refuse_at(i, "nominal_stress_N_per_mm2", found, f"a {sign} stress there")
 
 
 def _chosen_cycle(

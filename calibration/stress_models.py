@@ -102,6 +102,14 @@ class StressModel(ABC):
         """Parameters in the order that makes them unique."""
         return values
 
+    def admissible(self, values: dict[str, float]) -> bool:
+        """Whether the parameters make an energy; where bounds of each alone cannot say so."""
+        return True
+
+    def narrow_bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+        """Bounds for a second fit when the first one is not admissible."""
+        return self.bounds(kin)
+
 
 class _LinearModel(StressModel):
     """Models whose stress is linear in all parameters: the columns are all there is to say."""
@@ -145,6 +153,12 @@ class MooneyRivlinStress(_LinearModel):
     def bounds(self, kin: Kinematics) -> tuple[Array, Array]:
         # Either constant may be negative as long as the shear modulus is not.
         return np.full(2, -np.inf), np.full(2, np.inf)
+
+    def admissible(self, values: dict[str, float]) -> bool:
+        return values["C10"] + values["C01"] > 0.0
+
+    def narrow_bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+        return np.array([1e-9, 0.0]), np.full(2, np.inf)
 
     def build(self, values: dict[str, float]) -> MooneyRivlin:
         return MooneyRivlin(**values)

@@ -95,7 +95,7 @@ def shift_sweeps(table: pd.DataFrame | str | Path, T_ref_C: float | None = None)
         shifts=table_of_shifts,
         curve=_master(sweeps, temperatures, shifts),
         T_ref_C=float(temperatures[centre]),
-        warnings=_shift_warnings(temperatures, decades, wanted, temperatures[centre]),
+        warnings=_shift_warnings(temperatures, decades, T_ref_C, temperatures[centre]),
     )
 
 
@@ -176,10 +176,10 @@ def _master(
 
 
 def _shift_warnings(
-    temperatures: Array, decades: Array, wanted: float, taken: float
+    temperatures: Array, decades: Array, wanted: float | None, taken: float
 ) -> tuple[str, ...]:
     found = []
-    if abs(wanted - taken) > 1e-9:
+    if wanted is not None and abs(wanted - taken) > 1e-9:
         found.append(f"no sweep at {wanted:g} deg C: the one at {taken:g} deg C is the reference")
     for i in np.flatnonzero(decades < _LEAST_OVERLAP):
         found.append(

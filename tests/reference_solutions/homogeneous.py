@@ -74,6 +74,14 @@ def nominal_stress(name, constants, stretch, mode):
     return isochoric_energy(name, constants, *stretches).imag / STEP / forces
 
 
+def ogden_nominal_stress(mu, alpha, stretch, mode):
+    """Nominal stress [N/mm^2] of Ogden's energy 2 mu/alpha^2 (sum of stretches^alpha - 3)."""
+    path, forces = PATHS[mode]
+    stretches = path(np.asarray(stretch, dtype=complex) + 1j * STEP)
+    W = sum(2 * m / a**2 * sum(s**a for s in stretches) for m, a in zip(mu, alpha, strict=True))
+    return W.imag / STEP / forces
+
+
 def plane_strain_energy(name, constants, F, F33=1.0):
     """Isochoric energy [N/mm^2] of deformation gradients (..., 2, 2) and F33 (complex allowed)."""
     trace = np.sum(F * F, axis=(-2, -1)) + F33**2

@@ -1,0 +1,155 @@
+"""The least-squares core: exact answers, uncertainty, identifiability."""
+
+import numpy as np
+import pytest
+
+from calibration.fit_core import Problem, correlation_of, fit
+
+X = np.linspace(0.0, 4.0, 60)
+
+
+def line(observed, weights=None, linear=True):
+    return Problem(
+        names=("slope", "offset"),
+        predict=lambda t: t[0] * X + t[1],
+        jacobian=lambda t: np.stack([X, np.ones_like(X)], axis=1),
+        observed=observed,
+        weights=weights,
+        lower=np.full(2, -np.inf),
+        upper=np.full(2, np.inf),
+        linear=linear,
+    )
+
+
+def decay(observed, jacobian=True):
+    return Problem(
+        names=("height", "rate"),
+        predict=lambda t: t[0] * np.exp(-t[1] * X),
+        jacobian=(lambda t: np.stack([np.exp(-t[1] * X), -t[0] * X * np.exp(-t[1] * X)], axis=1))
+        if jacobian
+        else None,
+        observed=observed,
+        lower=np.array([0.0, 0.0]),
+        upper=np.array([10.0, 10.0]),
+    )
+
+
+def noise(sigma, seed=0):
+    return np.random.default_rng(seed).normal(0.0, sigma, X.size)
+
+
+@pytest.mark.parametrize("linear", [True, False])
+def test_straight_line_matches_the_textbook(linear):
+    y = 2.0 * X - 1.0 + noise(0.1)
+    result = fit(line(y, linear=linear), np.zeros((1, 2)))
+    slope, offset = np.polyfit(X, y, 1)
+    assert result.values["slope"] == pytest.approx(slope, rel=1e-12)
+    assert result.values["offset"] == pytest.approx(offset, rel=1e-12)
+    s2 = np.sum((y - slope * X - offset) ** 2) / (X.size - 2)
+    spread = np.sum((X - X.mean()) ** 2)
+    assert result.stderr["slope"] == pytest.approx(np.sqrt(s2 / spread), rel=1e-10)
+    covariance = -X.mean() * s2 / spread
+    assert result.covariance[0, 1] == pytest.approx(covariance, rel=1e-10)
+    assert result.r2 == pytest.approx(np.corrcoef(X, y)[0, 1] ** 2, rel=1e-12)
+
+
+def test_student_interval_is_that_of_the_textbook():
+    result = fit(line(2.0 * X + noise(0.1)), np.zeros((1, 2)))
+    low, high = result.interval(0.95)["slope"]
+    assert high - low == pytest.approx(2 * 2.001717 * result.stderr["slope"], rel=1e-6)
+
+
+@pytest.mark.parametrize("jacobian", [True, False])
+def test_nonlinear_parameters_come_back_without_noise(jacobian):
+    y = 3.0 * np.exp(-0.7 * X)
+    result = fit(decay(y, jacobian), np.array([[1.0, 0.1], [5.0, 5.0]]))
+    assert result.values["height"] == pytest.approx(3.0, rel=1e-9)
+    assert result.values["rate"] == pytest.approx(0.7, rel=1e-9)
+
+
+def test_a_bad_start_does_not_hide_the_good_one():
+    y = 3.0 * np.exp(-0.7 * X)
+    starts = np.array([[np.nan, 1.0], [0.0, 10.0], [2.0, 0.5]])
+    assert fit(decay(y), starts).values["rate"] == pytest.approx(0.7, rel=1e-9)
+
+
+def test_profile_and_bootstrap_agree_with_the_covariance_of_a_linear_problem():
+    result = fit(line(2.0 * X - 1.0 + noise(0.1)), np.zeros((1, 2)))
+    wald = result.interval()["slope"]
+    assert result.profile("slope") == pytest.approx(wald, rel=1e-6)
+    boot = result.bootstrap(400)["slope"]
+    width = wald[1] - wald[0]
+    assert boot[0] == pytest.approx(wald[0], abs=0.2 * width)
+    assert boot[1] == pytest.approx(wald[1], abs=0.2 * width)
+
+
+def test_profile_of_a_curved_problem_is_lopsided_and_holds_the_truth():
+    result = fit(decay(0.3 * np.exp(-0.7 * X) + noise(0.05)), np.array([[1.0, 0.5]]))
+    low, high = result.profile("rate")
+    assert low < 0.7 < high
+    assert high - result.values["rate"] > 1.05 * (result.values["rate"] - low)
+
+
+def test_singular_directions_are_named_and_have_no_finite_error():
+    problem = Problem(
+        names=("a", "b", "c"),
+        predict=lambda t: (t[0] + t[1]) * X + t[2],
+        jacobian=lambda t: np.stack([X, X, np.ones_like(X)], axis=1),
+        observed=2.0 * X + noise(0.1),
+        lower=np.full(3, -np.inf),
+        upper=np.full(3, np.inf),
+    )
+    result = fit(problem, np.zeros((1, 3)))
+    assert np.isinf(result.stderr["a"])
+    assert np.isinf(result.stderr["b"])
+    assert 0.0 < result.stderr["c"] < 0.1
+    assert [w for w in result.warnings if "a is not determined" in w]
+
+
+def test_strong_correlation_is_reported():
+    x = X + 100.0
+    problem = Problem(
+        names=("slope", "offset"),
+        predict=lambda t: t[0] * x + t[1],
+        observed=x + noise(0.1),
+        lower=np.full(2, -np.inf),
+        upper=np.full(2, np.inf),
+    )
+    result = fit(problem, np.ones((1, 2)))
+    assert [w for w in result.warnings if "slope and offset are correlated by -0.99" in w]
+    assert result.correlation[0, 1] == pytest.approx(correlation_of(result.covariance)[0, 1])
+
+
+def test_a_parameter_at_its_bound_is_reported_without_standard_error():
+    result = fit(decay(np.full(X.size, 1.0) + 0.2 * X), np.array([[1.0, 0.5]]))
+    assert result.values["rate"] == pytest.approx(0.0, abs=1e-6)
+    assert np.isnan(result.stderr["rate"])
+    assert np.isfinite(result.stderr["height"])
+    assert [w for w in result.warnings if "rate" in w and "bound" in w]
+
+
+def test_weights_act_like_repeated_points():
+    y = 2.0 * X + noise(0.3)
+    weights = np.ones_like(X)
+    weights[:10] = np.sqrt(3.0)
+    weighted = fit(line(y, weights), np.zeros((1, 2))).values
+    slope, offset = np.polyfit(X, y, 1, w=weights)
+    assert weighted == pytest.approx({"slope": slope, "offset": offset}, rel=1e-10)
+
+
+def test_as_many_points_as_parameters_leave_no_standard_errors():
+    problem = Problem(
+        names=("slope", "offset"),
+        predict=lambda t: t[0] * np.array([1.0, 2.0]) + t[1],
+        observed=np.array([1.0, 3.0]),
+        lower=np.full(2, -np.inf),
+        upper=np.full(2, np.inf),
+    )
+    result = fit(problem, np.ones((1, 2)))
+    assert np.all(np.isnan(result.covariance))
+    assert [w for w in result.warnings if "leave nothing for standard errors" in w]
+
+
+def test_fixing_everything_is_refused():
+    with pytest.raises(ValueError, match="every parameter is fixed"):
+        fit(line(X), np.zeros((1, 2)), fixed={"slope": 1.0, "offset": 0.0})
