@@ -1,0 +1,97 @@
+"""The calibrate command: what it prints and writes."""
+
+import argparse
+import tomllib
+
+import pandas as pd
+import pytest
+
+from calibration import commands
+from calibration.datasets import dataset_path
+from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synthetic_sweeps
+from contact import HuemerFriction
+from materials import WLF
+
+
+def run(words):
+    parser = argparse.ArgumentParser(prog="treadfem")
+    commands.add_arguments(parser.add_subparsers(required=True))
+    arguments = parser.parse_args(["calibrate", *map(str, words)])
+    return arguments.command(arguments)
+
+
+def test_hyperelastic_writes_parameters_points_comparison_and_pictures(tmp_path, capsys):
+    output = tmp_path / "out"
+    data = dataset_path("meunier2008")
+    assert run(["hyperelastic", data, "--model", "van-der-waals", "-o", output]) == 0
+    printed = capsys.readouterr().out
+    assert "van-der-waals" in printed
+    assert "best AIC first" in printed
+    names = {"parameters.toml", "fit.csv", "fit.png", "models.csv", "models.png"}
+    assert {path.name for path in output.iterdir()} == names
+    points = pd.read_csv(output / "fit.csv")
+    assert len(points) == 66
+    assert points["row"].iloc[0] == 7  # five lines of comment and the header come before
+    difference = points["fit_N_per_mm2"] - points["nominal_stress_N_per_mm2"]
+    assert difference.to_numpy() == pytest.approx(points["residual_N_per_mm2"].to_numpy())
+    assert (output / "fit.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_options_reach_the_fit(tmp_path):
+    data = tmp_path / "bars.csv"
+    synthetic_bar_cycles(1).to_csv(data, index=False)
+    words = ["--branch", "load", "--window", "1", "2", "--fix", "C30=-0.0003", "--no-compare"]
+    assert run(["hyperelastic", data, *words, "--quiet", "-o", tmp_path / "o"]) == 0
+    fit = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())["fit"]
+    assert fit["branch"] == "load"
+    assert fit["window"] == [1.0, 2.0]
+    assert fit["held"] == ["C30"]
+    assert fit["values"]["C10"] == pytest.approx(0.3794, rel=1e-9)
+    assert not (tmp_path / "o" / "models.csv").exists()
+
+
+def test_friction_writes_a_comparison_of_the_curves(tmp_path, capsys):
+    data = tmp_path / "friction.csv"
+    synthetic_friction(HuemerFriction(), repeats=1).to_csv(data, index=False)
+    assert run(["friction", data, "-o", tmp_path / "o"]) == 0
+    assert "mu_largest_difference" in capsys.readouterr().out
+    names = {"parameters.toml", "fit.csv", "fit.png", "laws.csv"}
+    assert {path.name for path in (tmp_path / "o").iterdir()} == names
+
+
+def test_friction_with_many_pressures_and_temperatures_is_drawn(tmp_path):
+    data = tmp_path / "friction.csv"
+    table = synthetic_friction(
+        HuemerFriction(v_min=1e-9),
+        pressures_N_per_mm2=[0.05 * i for i in range(1, 13)],
+        temperatures_C=(10.0, 30.0),
+        wlf=WLF(),
+        repeats=1,
+    )
+    table.to_csv(data, index=False)
+    words = ["--wlf", "given", "--d1", "43.1", "--d2", "509.4", "--no-compare", "--quiet"]
+    assert run(["friction", data, *words, "-o", tmp_path / "o"]) == 0
+    content = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())
+    assert content["friction"]["wlf"] is True
+    assert content["friction"]["d1"] == 43.1
+
+
+def test_sweeps_leave_a_master_curve(tmp_path, capsys):
+    data = tmp_path / "sweeps.csv"
+    synthetic_sweeps(WLF(d1=17.0, d2_K=150.0), (0.0, 15.0, 30.0, 45.0)).to_csv(data, index=False)
+    assert run(["wlf", data, "--T-ref", "20", "-o", tmp_path / "o"]) == 0
+    printed = capsys.readouterr().out
+    assert "overlap error" in printed
+    assert "no sweep at 20 deg C" in printed
+    names = {"shift_factors.csv", "master_curve.csv", "master_curve.png"}
+    assert names <= {path.name for path in (tmp_path / "o").iterdir()}
+    content = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())
+    assert content["friction"]["T_ref_C"] == 20.0
+    assert content["friction"]["d1"] == pytest.approx(17.0, rel=0.02)
+
+
+def test_the_same_data_give_the_same_bytes(tmp_path):
+    for name in ("a", "b"):
+        run(["hyperelastic", dataset_path("kawabata1981"), "--quiet", "-o", tmp_path / name])
+    for path in (tmp_path / "a").iterdir():
+        assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes()

@@ -1,0 +1,107 @@
+"""Friction fits: recovery, redundancy of scale, temperature shift, comparison of curves."""
+
+import numpy as np
+import pytest
+
+from calibration import compare_laws, fit_friction
+from calibration.friction import LAWS
+from calibration.paper_tables import FRICTION_LAWS, friction_values
+from calibration.synthetic import synthetic_friction
+from contact import ExponentialFriction, HuemerFriction, ThermalFriction
+from materials import WLF
+
+TABLE_2 = friction_values()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_noise_free_parameters_come_back_in_the_papers_scale(law):
+    result = fit_friction(synthetic_friction(FRICTION_LAWS[law], noise=0.0), law)
+    assert result.values == pytest.approx(TABLE_2[law], rel=1e-6)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_noisy_parameters_come_back_within_three_standard_errors(law):
+    result = fit_friction(synthetic_friction(FRICTION_LAWS[law], seed=5), law)
+    for name in result.names:
+        assert abs(result.values[name] - TABLE_2[law][name]) < 3.0 * result.stderr[name]
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_jacobian_matches_central_differences(law):
+    form = LAWS[law]
+    p, v = (a.ravel() for a in np.meshgrid([0.1, 0.3, 0.9], [2.0, 26.0, 400.0]))
+    theta = np.array([TABLE_2[law][name] for name in form.names])
+    _, J, by_log_v = form.curve(theta, p, v)
+    h = 1e-6
+    for k in range(theta.size):
+        step = h * np.eye(theta.size)[k]
+        slope = (form.curve(theta + step, p, v)[0] - form.curve(theta - step, p, v)[0]) / (2 * h)
+        np.testing.assert_allclose(J[:, k], slope, rtol=1e-6, atol=1e-9)
+    up, down = form.curve(theta, p, v * np.exp(h))[0], form.curve(theta, p, v * np.exp(-h))[0]
+    np.testing.assert_allclose(by_log_v, (up - down) / (2 * h), rtol=1e-6, atol=1e-9)
+
+
+def test_another_scale_gives_the_same_curve():
+    table = synthetic_friction(HuemerFriction(), seed=1)
+    first = fit_friction(table, "huemer")
+    second = fit_friction(table, "huemer", fixed={"a": 2.0})
+    np.testing.assert_allclose(first.predicted, second.predicted, rtol=1e-7)
+    assert second.values["beta"] == pytest.approx(first.values["beta"] * 2.0 / 0.9203, rel=1e-4)
+
+
+def test_scale_may_be_held_through_another_constant():
+    table = synthetic_friction(HuemerFriction(), noise=0.0)
+    result = fit_friction(table, "huemer", fixed={"c": 0.9677})
+    assert result.values == pytest.approx(TABLE_2["huemer"], rel=1e-6)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_wlf_constants_are_found_together_with_the_law(law):
+    plain = {"exponential": ExponentialFriction(v_min=1e-9), "huemer": HuemerFriction(v_min=1e-9)}
+    table = synthetic_friction(
+        plain[law], temperatures_C=(0.0, 20.0, 40.0), wlf=WLF(), repeats=1, noise=0.0
+    )
+    result = fit_friction(table, law, wlf="fit", T_ref_C=20.0)
+    assert result.values == pytest.approx({**TABLE_2[law], "d1": 43.1, "d2_K": 509.4}, rel=1e-6)
+    assert isinstance(result.model, ThermalFriction)
+    assert result.section["friction"]["d2_K"] == pytest.approx(509.4, rel=1e-6)
+
+
+def test_given_shift_is_used_and_a_missing_one_reported():
+    table = synthetic_friction(
+        HuemerFriction(v_min=1e-9), temperatures_C=(5.0, 35.0), wlf=WLF(), repeats=1, noise=0.0
+    )
+    given = fit_friction(table, "huemer", wlf=WLF())
+    assert given.values == pytest.approx(TABLE_2["huemer"], rel=1e-6)
+    without = fit_friction(table, "huemer")
+    assert without.rmse > 0.01
+    assert any("no WLF shift takes part" in warning for warning in without.warnings)
+
+
+def test_one_pressure_cannot_determine_the_pressure_part():
+    table = synthetic_friction(HuemerFriction(), pressures_N_per_mm2=(0.3,))
+    result = fit_friction(table, "huemer")
+    assert any("not determined" in warning for warning in result.warnings)
+    assert np.isinf(result.stderr["alpha"])
+    assert np.isfinite(result.stderr["inverse_m"])
+    np.testing.assert_allclose(
+        result.model.law.coefficient(table["p_N_per_mm2"], table["v_mm_per_s"]),
+        HuemerFriction().coefficient(table["p_N_per_mm2"], table["v_mm_per_s"]),
+        atol=2e-3,
+    )
+
+
+def test_curves_are_compared_and_the_exponential_law_misses_the_peak():
+    table = compare_laws(synthetic_friction(HuemerFriction()))
+    assert table["law"].tolist() == ["huemer", "exponential"]
+    assert table["mu_largest_difference"][0] == 0.0
+    assert table["mu_largest_difference"][1] > 0.05
+
+
+def test_floors_of_the_law_follow_the_data_downwards_only():
+    low = synthetic_friction(
+        HuemerFriction(v_min=0.01), velocities_mm_per_s=np.geomspace(0.05, 100.0, 20)
+    )
+    assert fit_friction(low).section["friction"]["v_min_mm_per_s"] == pytest.approx(0.05)
+    high = synthetic_friction(HuemerFriction(), velocities_mm_per_s=np.geomspace(5.0, 900.0, 20))
+    assert fit_friction(high).section["friction"]["v_min_mm_per_s"] == 1.0

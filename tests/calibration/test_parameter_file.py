@@ -1,0 +1,107 @@
+"""Parameter files: origin, uncertainty, and the way into a case."""
+
+import hashlib
+import tomllib
+
+import numpy as np
+import pytest
+
+from calibration import fit_friction, fit_hyperelastic, fit_wlf
+from calibration.datasets import DATASETS, dataset_path
+from calibration.synthetic import (
+    TABLE_1,
+    synthetic_bar_cycles,
+    synthetic_friction,
+    synthetic_stress,
+    synthetic_sweeps,
+)
+from contact import HuemerFriction
+from fem.case import Case
+from materials import WLF, compound
+
+LOADING = """
+[loading]
+mean_pressure_N_per_mm2 = 0.25
+velocity_mm_per_s = 300.0
+distance_mm = 120.0
+"""
+
+
+def test_file_says_where_the_numbers_come_from(tmp_path):
+    source = tmp_path / 'bars "7".csv'
+    synthetic_bar_cycles(1, noise_N_per_mm2=0.01).to_csv(source, index=False)
+    result = fit_hyperelastic(source, "yeoh", branch="load", window=(1.0, 2.2))
+    content = tomllib.loads(result.to_toml(tmp_path / "deep" / "rubber.toml").read_text())
+    fit = content["fit"]
+    assert fit["data_file"] == 'bars "7".csv'
+    assert fit["data_sha256"] == hashlib.sha256(source.read_bytes()).hexdigest()
+    assert fit["cycle"] == "last full cycle at the highest strain (uniaxial 5)"
+    assert (fit["branch"], fit["window"], fit["model"]) == ("load", [1.0, 2.2], "yeoh")
+    assert fit["version"]
+    assert fit["rmse"] == result.rmse
+    assert fit["r2"] == result.r2
+    assert fit["stderr"] == result.stderr
+    assert fit["values"] == result.values
+    np.testing.assert_array_equal(fit["covariance"]["matrix"], result.covariance)
+    assert content["rubber"]["C10_N_per_mm2"] == result.values["C10"]
+    assert sorted(path.name for path in (tmp_path / "deep").iterdir()) == ["rubber.toml"]
+
+
+@pytest.mark.parametrize("name", TABLE_1)
+def test_a_case_takes_fitted_rubber(name, tmp_path):
+    result = fit_hyperelastic(synthetic_stress(name, noise_N_per_mm2=0.0), TABLE_1[name].model)
+    result.to_toml(tmp_path / "rubber.toml")
+    case_file = tmp_path / "case.toml"
+    case_file.write_text('[rubber]\nparameters = "rubber.toml"\n' + LOADING)
+    model = Case.from_toml(case_file).rubber.model()
+    assert type(model) is type(compound(name))
+    assert vars(model) == pytest.approx(vars(compound(name)), rel=1e-6)
+
+
+def test_a_case_takes_fitted_friction_with_its_shift(tmp_path):
+    table = synthetic_friction(
+        HuemerFriction(v_min=1e-9), temperatures_C=(5.0, 35.0), wlf=WLF(), repeats=1
+    )
+    result = fit_friction(table, "huemer", wlf="fit", T_ref_C=25.0)
+    result.to_toml(tmp_path / "friction.toml")
+    case_file = tmp_path / "case.toml"
+    case_file.write_text('[friction]\nparameters = "friction.toml"\n' + LOADING)
+    law = Case.from_toml(case_file).friction.law_object()
+    assert law == result.model
+
+
+def test_a_case_takes_fitted_friction_without_a_shift(tmp_path):
+    result = fit_friction(synthetic_friction(HuemerFriction()), "exponential")
+    result.to_toml(tmp_path / "friction.toml")
+    case_file = tmp_path / "case.toml"
+    case_file.write_text('[friction]\nparameters = "friction.toml"\n' + LOADING)
+    assert Case.from_toml(case_file).friction.law_object() == result.model
+
+
+def test_a_case_takes_a_fitted_shift_for_its_own_law(tmp_path):
+    result = fit_wlf(synthetic_sweeps(WLF(d1=17.0, d2_K=150.0), (0.0, 20.0, 40.0, 60.0)))
+    result.to_toml(tmp_path / "wlf.toml")
+    case_file = tmp_path / "case.toml"
+    case_file.write_text('[friction]\nlaw = "huemer"\nparameters = "wlf.toml"\n' + LOADING)
+    assert Case.from_toml(case_file).friction.law_object().wlf == result.model
+
+
+@pytest.mark.parametrize("model", ["ogden-3", "arruda-boyce"])
+def test_models_no_case_takes_write_their_numbers_only(model, tmp_path):
+    result = fit_hyperelastic(dataset_path("kawabata1981"), model)
+    content = tomllib.loads(result.to_toml(tmp_path / "p.toml").read_text())
+    assert "rubber" not in content
+    assert content["fit"]["values"] == result.values
+
+
+def test_numbers_that_are_not_finite_stay_readable(tmp_path):
+    result = fit_friction(synthetic_friction(HuemerFriction(), pressures_N_per_mm2=(0.3,)))
+    content = tomllib.loads(result.to_toml(tmp_path / "p.toml").read_text())
+    assert np.isinf(content["fit"]["stderr"]["alpha"])
+
+
+def test_data_sets_name_their_papers():
+    for name in DATASETS:
+        assert "# Source: " in dataset_path(name).read_text()
+    with pytest.raises(ValueError, match="data set is 'treloar'; expected one of"):
+        dataset_path("treloar")
