@@ -35,10 +35,10 @@ run: $(READY)
 	$(BIN)/treadfem run examples/introductory.toml -o $(RESULTS)/run
 
 test: $(READY)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --benchmark-skip
 
 test-fast: $(READY)
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest --benchmark-skip -m "not slow"
 
 lint: $(READY)
 	$(BIN)/ruff check .
