@@ -8,6 +8,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from validation.compound_names import COMPOUND_LOOKS
+from validation.fig8 import reached
 from validation.fig9 import COMPOUND
 from validation.study import STUDIES, StudyRun, study_runs
 from validation.style import COLUMN_WIDTH, new_figure, save, styled
@@ -45,7 +46,7 @@ def draw(runs: list[StudyRun]) -> Figure:
                 result.surface["T_C"],
                 color=look.colour,
                 ls=look.dash,
-                label=f"{look.label}: {_degrees(result.summary['T_max_C'])}",
+                label=f"{look.label}: {_degrees(result.summary['T_max_C'])}{reached(result)}",
             )
     axes.set_xlabel("$X$ from the trailing to the leading corner [mm]")
     axes.set_ylabel("$T$ at the bottom surface [°C]")

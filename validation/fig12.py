@@ -21,7 +21,13 @@ KEYS = {
     "velocity_mm_per_s": "loading.velocity_mm_per_s",
     "mean_pressure_N_per_mm2": "loading.mean_pressure_N_per_mm2",
 }
-RESULTS = ("T_max_C", "A_T_K_mm", "friction_coefficient", "mean_contact_pressure_N_per_mm2")
+RESULTS = (
+    "status",
+    "T_max_C",
+    "A_T_K_mm",
+    "friction_coefficient",
+    "mean_contact_pressure_N_per_mm2",
+)
 QUANTITIES = {"T_max_C": r"$T_{max}$ [°C]", "A_T_K_mm": "$A_T$ [K mm]"}
 
 
@@ -45,7 +51,11 @@ def point_table(runs: list[StudyRun]) -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw T_max in the upper and A_T in the lower row, a column per velocity."""
+    """Draw T_max in the upper and A_T in the lower row, a column per velocity.
+
+    Runs that did not get to their end are in the table only.
+    """
+    table = table[table["status"] == "ok"]
     velocities = sorted(table["velocity_mm_per_s"].unique())
     figure = new_figure(PAGE_WIDTH, 125.0)
     panels = figure.subplots(2, len(velocities), sharex=True, squeeze=False)

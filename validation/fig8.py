@@ -45,6 +45,19 @@ def last_state(result: Result) -> BlockState:
     )
 
 
+def reached(result: Result) -> str:
+    """What to say beside a run that did not get to its end; nothing for one that did."""
+    if result.summary["status"] == "ok":
+        return ""
+    return f", stopped at {last_distance(result):.3g} mm"
+
+
+def last_distance(result: Result) -> float:
+    """Sliding distance at the last accepted step [mm]."""
+    distance = result.history["sliding_distance_mm"]
+    return float(abs(distance.iloc[-1])) if len(distance) else 0.0
+
+
 @styled
 def draw(result: Result) -> Figure:
     """Draw mesh, temperature and stress, each with its detail, and the history below."""
@@ -55,7 +68,7 @@ def draw(result: Result) -> Figure:
     figure.suptitle(
         f"Sliding distance {abs(state.snapshot.sliding_distance_mm):.4g} mm,  "
         rf"$v$ = {abs(loading.velocity_mm_per_s):g} mm/s,  "
-        rf"$\bar p$ = {loading.mean_pressure_N_per_mm2:g} N/mm²",
+        rf"$\bar p$ = {loading.mean_pressure_N_per_mm2:g} N/mm²{reached(result)}",
         fontsize=9.5,
     )
     draw_fields(figure, rows[:3], state)

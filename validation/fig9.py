@@ -15,7 +15,7 @@ from fem.snapshot import FloatArray
 from validation.block_drawing import Window, draw_outline, draw_road, draw_smooth, set_window
 from validation.compound_names import COMPOUND_LOOKS
 from validation.field_panels import BlockState, stress_scale, vertical_stress
-from validation.fig8 import last_state
+from validation.fig8 import last_state, reached
 from validation.study import STUDIES, StudyRun, study_runs
 from validation.style import BLACK, PAGE_WIDTH, STRESS_MAP, new_figure, save, styled
 
@@ -24,16 +24,22 @@ COMPOUND = "rubber.compound"
 
 def make(directory: Path) -> Path:
     """Draw figure 9 from the study of compounds and write extremes and contours beside it."""
-    states = by_compound(study_runs(STUDIES / "compounds.toml", directory))
+    runs = study_runs(STUDIES / "compounds.toml", directory)
+    states = by_compound(runs)
     extremes_table(states).to_csv(directory / "fig9.csv", index=False, lineterminator="\n")
     contour_table(states).to_csv(directory / "fig9_contours.csv", index=False, lineterminator="\n")
-    return save(draw(states), directory / "fig9.png")
+    return save(draw(states, stopped(runs)), directory / "fig9.png")
 
 
 def by_compound(runs: list[StudyRun]) -> dict[str, BlockState]:
     """The last states by compound, in the paper's order."""
     found = {run[COMPOUND]: last_state(run.result) for run in runs}
     return {name: found[name] for name in COMPOUND_LOOKS if name in found}
+
+
+def stopped(runs: list[StudyRun]) -> dict[str, str]:
+    """What to say of runs that did not get to their end, by compound."""
+    return {run[COMPOUND]: reached(run.result) for run in runs}
 
 
 def extremes_table(states: dict[str, BlockState]) -> pd.DataFrame:
@@ -74,7 +80,7 @@ def contour(state: BlockState) -> FloatArray:
 
 
 @styled
-def draw(states: dict[str, BlockState]) -> Figure:
+def draw(states: dict[str, BlockState], notes: dict[str, str] | None = None) -> Figure:
     """Draw a panel per compound on one scale, and all contours over each other."""
     figure = new_figure(PAGE_WIDTH, 205.0)
     grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 1.0, 1.0, 1.75])
@@ -82,7 +88,8 @@ def draw(states: dict[str, BlockState]) -> Figure:
     panels = []
     for (name, state), place in zip(states.items(), list(grid)[:6], strict=False):
         axes = figure.add_subplot(place)
-        field = _draw_compound(axes, name, state, window, norm)
+        note = (notes or {}).get(name, "")
+        field = _draw_compound(axes, name, state, window, norm, note)
         panels.append(axes)
     figure.colorbar(
         field, ax=panels, label=r"$\sigma_y$ [N/mm²]", extend="both", aspect=40, pad=0.01
@@ -92,7 +99,7 @@ def draw(states: dict[str, BlockState]) -> Figure:
 
 
 def _draw_compound(
-    axes: Axes, name: str, state: BlockState, window: Window, norm: Normalize
+    axes: Axes, name: str, state: BlockState, window: Window, norm: Normalize, note: str
 ) -> object:
     cells = state.geometry.cells
     draw_road(axes, window)
@@ -102,7 +109,7 @@ def _draw_compound(
     sigma_y = state.snapshot.cauchy_stress[:, 1]
     axes.set_title(
         f"{COMPOUND_LOOKS[name].label}\n"
-        rf"min {sigma_y.min():.2f}, max {sigma_y.max():.2f} N/mm²",
+        rf"min {sigma_y.min():.2f}, max {sigma_y.max():.2f} N/mm²{note}",
         fontsize=7.5,
     )
     axes.tick_params(labelsize=6.5)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from validation import fig2, fig3, fig4, fig7, fig8, fig9, fig10, fig11, fig12
+from validation import fig2, fig3, fig4, fig6, fig7, fig8, fig9, fig10, fig11, fig12
 
 #: Number of the figure to the function that draws it into a folder and returns the picture's path.
 #: Figures 1 and 5 of the paper are a sketch and photographs.
@@ -13,6 +13,7 @@ FIGURES: dict[int, Callable[[Path], Path]] = {
     2: fig2.make,
     3: fig3.make,
     4: fig4.make,
+    6: fig6.make,
     7: fig7.make,
     8: fig8.make,
     9: fig9.make,

@@ -7,10 +7,12 @@ import itertools
 import numpy as np
 import pytest
 
+from calibration.conductance import fit_conductance, synthetic_heating_record
+from calibration.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_dumbbell_cycles
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
-from validation import fig2, fig3, fig4, fig9, fig10, fig11, fig12
+from validation import fig2, fig3, fig4, fig6, fig9, fig10, fig11, fig12
 from validation.compound_names import COMPOUND_LOOKS
 from validation.figures import make_figure
 from validation.stress_panels import chosen_cycle, set_table
@@ -28,6 +30,22 @@ def test_figures_without_runs_come_with_their_tables(number, tmp_path):
     assert path.is_file()
     assert path.with_suffix(".csv").is_file()
     assert not list(tmp_path.glob(".*"))
+
+
+@pytest.mark.slow
+def test_figure_6_shows_the_rig_and_a_fit_that_finds_the_conductance(tmp_path):
+    rig = HeatingRig(ambient_C=20.0)
+    record = synthetic_heating_record(rig, noise_K=0.3, every_s=30.0)
+    found = fit_conductance(record, rig)
+    assert found.values["h_W_per_m2K"] == pytest.approx(1600.0, rel=0.05)
+    curves = fig6.fitted_curves(rig, record, found)
+    assert list(curves.columns) == ["time_s", *(f"{name}_C" for name in rig.thermocouples)]
+    difference = (curves - record[list(curves.columns)]).iloc[:, 1:]
+    assert float((difference**2).mean().mean() ** 0.5) == pytest.approx(0.3, rel=0.15)
+    figure = fig6.draw(rig, record, curves, found)
+    assert_labelled(figure)
+    assert_nothing_overlaps(figure)
+    assert "not measured" in figure.get_suptitle()
 
 
 def test_synthetic_data_are_called_so_in_file_and_figure(tmp_path):
@@ -110,6 +128,27 @@ def test_pictures_from_runs_are_labelled_and_nothing_overlaps(compound_runs):
     ):
         assert_labelled(figure)
         assert_nothing_overlaps(figure)
+
+
+def test_a_run_that_stopped_says_so_in_its_panel(compound_runs):
+    run = compound_runs[0]
+    run.result.summary["status"] = "not converged"
+    try:
+        figure = fig9.draw(fig9.by_compound(compound_runs), fig9.stopped(compound_runs))
+    finally:
+        run.result.summary["status"] = "ok"
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    assert [("stopped at 120 mm" in title) for title in titles[:2]] == [True, False]
+    assert_nothing_overlaps(figure)
+
+
+def test_figure_12_leaves_out_runs_that_stopped():
+    runs = [made_up_run(loading__mean_pressure_N_per_mm2=p) for p in (0.2, 0.3)]
+    runs[0].result.summary["status"] = "not converged"
+    table = fig12.point_table(runs)
+    assert table["status"].tolist() == ["not converged", "ok"]
+    (line,) = fig12.draw(table).axes[0].lines
+    assert len(line.get_xdata()) == 1
 
 
 def test_figure_12_has_a_point_per_run():
