@@ -38,10 +38,12 @@ NODAL_RULE = (
     np.full(4, 0.25),
 )
 
-#: Volume ratio below which the pull-back is bounded. A corner of a cell in the crease of the
-#: rolled-up edge may be crushed, or for a moment turned over, while the cell keeps its volume;
-#: there the conductivity would grow without limit. The bound leaves it positive and finite.
-SMALLEST_VOLUME_RATIO = 0.05
+#: Volume ratio below which the deformation of a corner is replaced by the mean one of its cell.
+#: In the crease of the rolled-up edge a corner may be crushed, or even turned over, while the cell
+#: keeps its volume; its own pull-back, with 1/J, would make it conduct like a metal. If the cell
+#: as a whole is crushed as well, its J is bounded by the same number. (Strongly sheared cells have
+#: no M-matrix: one to three nodes in the crease were seen to cool by 2 % of the largest rise.)
+SMALLEST_VOLUME_RATIO = 0.2
 
 
 def relative_change(new: FloatArray, old: FloatArray) -> float:
@@ -87,7 +89,7 @@ class BlockConduction:
     rubber : ThermalProperties
         Conductivity, density and specific heat in internal units.
     smallest_volume_ratio : float, optional
-        Bound of det F in the pull-back [-].
+        See `SMALLEST_VOLUME_RATIO` [-].
     """
 
     def __init__(
@@ -164,6 +166,17 @@ class BlockConduction:
         J = adjugate[..., 0, 0] * adjugate[..., 1, 1] - adjugate[..., 0, 1] * adjugate[..., 1, 0]
         return adjugate, J
 
+    def regular_deformation(self, displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Adjugate of F and J > 0, with crushed corners replaced by the mean of their cell."""
+        adjugate, J = self.inverse_deformation(displacement)
+        cell, corner = np.nonzero(self.smallest_volume_ratio > J)
+        if len(cell):
+            mean = adjugate[cell].mean(axis=1)  # linear in F, so it belongs to the mean of F
+            J_mean = mean[:, 0, 0] * mean[:, 1, 1] - mean[:, 0, 1] * mean[:, 1, 0]
+            adjugate[cell, corner] = mean
+            J[cell, corner] = np.maximum(J_mean, self.smallest_volume_ratio)
+        return adjugate, J
+
     def conductivity(self, displacement: FloatArray) -> FloatArray:
         """Pull-back k J F^-1 F^-T at the points of the nodal rule.
 
@@ -175,10 +188,10 @@ class BlockConduction:
         -------
         (3, ne, 4) float array [N/(s K)]
             Components XX, YY, XY of the tensor. It is symmetric and positive for any
-            displacement, because J is bounded from below.
+            displacement.
         """
-        A, J = self.inverse_deformation(displacement)
-        scale = self.rubber.conductivity / np.maximum(J, self.smallest_volume_ratio)
+        A, J = self.regular_deformation(displacement)
+        scale = self.rubber.conductivity / J
         XX = A[..., 0, 0] ** 2 + A[..., 0, 1] ** 2
         YY = A[..., 1, 0] ** 2 + A[..., 1, 1] ** 2
         XY = A[..., 0, 0] * A[..., 1, 0] + A[..., 0, 1] * A[..., 1, 1]
@@ -186,9 +199,8 @@ class BlockConduction:
 
     def element_matrices(self, displacement: FloatArray) -> FloatArray:
         """Conduction matrix of each cell, (ne, 4, 4) [N/(s K)] per mm depth."""
-        adjugate, J = self.inverse_deformation(displacement)
-        bounded = np.maximum(J, self.smallest_volume_ratio)
-        scale = np.sqrt(self.rubber.conductivity * self.weights / bounded)
+        adjugate, J = self.regular_deformation(displacement)
+        scale = np.sqrt(self.rubber.conductivity * self.weights / J)
         spatial = np.matmul(self.shape_gradients * scale[..., None, None], adjugate)
         flat = spatial.transpose(0, 2, 1, 3).reshape(len(self.cells), 4, 8)
         return np.asarray(flat @ flat.swapaxes(1, 2))

@@ -162,18 +162,31 @@ def test_no_node_is_cooled_by_heat_beside_it():
     assert T.min() > -1e-12 * T.max()
 
 
-def test_crushed_and_inverted_corners_leave_the_conductivity_positive_and_bounded():
+def test_a_corner_that_is_turned_over_conducts_like_its_cell():
     mesh = a_mesh()
     block = BlockConduction(mesh, RUBBER)
     u = np.zeros_like(mesh.points)
-    inner = mesh.cells[30, 2]
-    u[inner] = 1.2 * (mesh.points[mesh.cells[30, 0]] - mesh.points[inner])
+    cell = 30
+    corner, opposite = mesh.cells[cell, 2], mesh.cells[cell, 0]
+    u[corner] = 0.7 * (mesh.points[opposite] - mesh.points[corner])
     _, J = block.inverse_deformation(u)
     assert J.min() < 0.0
     K = block.conduction_matrix(u)
     assert np.all(np.isfinite(K.data))
     assert np.linalg.eigvalsh(K.toarray()).min() > -1e-10 * abs(K).max()
     np.testing.assert_allclose(K.sum(axis=0), 0.0, atol=1e-12 * abs(K).max())
+    XX, YY, _ = block.conductivity(u)[:, cell]
+    turned = J[cell] < 0.0
+    assert (XX + YY)[turned].max() < 4.0 * RUBBER.conductivity
+
+
+def test_a_cell_crushed_to_nothing_keeps_a_bounded_conductivity():
+    mesh = a_mesh()
+    block = BlockConduction(mesh, RUBBER)
+    conductivity = block.conductivity(mesh.points * [0.0, -1.0])
+    assert np.all(np.isfinite(conductivity))
+    assert conductivity.max() <= RUBBER.conductivity / block.smallest_volume_ratio * (1 + 1e-12)
+    assert conductivity.min() >= 0.0
 
 
 def test_relative_change_of_a_stretched_block():
