@@ -6,9 +6,11 @@ most. Each sub-step is backward Euler on both sides: contact switches on and off
 at the edges of the contact zone, and backward Euler is the scheme that does not undershoot there
 for any time step (the matrices are M-matrices on rectangles). Being of first order costs little:
 on a rigid block (300 mm/s, 0.3 N/mm^2, 40 mm) the default sub-step of 0.5 mm gives a T_max that
-is 0.05 K below that of sub-steps eight times shorter, for a rise of 22 K. The heat flow between block and
-road is implicit in both temperatures. Radiation uses the temperature at the start of the sub-step:
-its coefficient, about 6 W/(m^2 K), is three orders below the thermal inertia of the top layers.
+is 0.05 K below that of sub-steps eight times shorter, for a rise of 22 K.
+
+The heat flow between block and road is implicit in both temperatures. Radiation uses the
+temperature at the start of the sub-step: its coefficient, about 6 W/(m^2 K), is three orders below
+the thermal inertia of the top layers.
 
 Balance to rounding: generated = in_block + in_road + radiated + left.
 """
