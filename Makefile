@@ -63,7 +63,7 @@ $(FIGURES): fig%: $(READY)
 	$(BIN)/treadfem figure $* -o $(RESULTS)/figures
 
 $(TABLES): table%: $(READY)
-	$(BIN)/treadfem table $*
+	$(BIN)/treadfem table $* -o $(RESULTS)/figures
 
 figures: $(READY) $(RESULTS)/run/summary.json
 	$(BIN)/treadfem figure all -o $(RESULTS)/figures

@@ -65,6 +65,7 @@ def _parser(command: str) -> argparse.ArgumentParser:
     _add_template(commands)
     _add_calibrate(commands, wanted=command == "calibrate")
     _add_figure(commands)
+    _add_table(commands)
     return parser
 
 
@@ -276,38 +277,68 @@ def _add_calibrate(commands: Any, *, wanted: bool) -> None:
         commands.add_parser("calibrate", help="fit parameters to measurements")
 
 
-# -- figure ------------------------------------------------------------------------------------
+# -- figure, table -----------------------------------------------------------------------------
+
+
+#: Figures and tables share a folder, since some are made of the same runs.
+_PAPER = "results/figures"
 
 
 def _add_figure(commands: Any) -> None:
-    parser = commands.add_parser(
-        "figure", help="make a figure of the paper", description="Make a figure of the paper."
-    )
-    parser.add_argument("number", metavar="N|all", help="number of the figure, or all")
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", default="results/figures", help="folder of the pictures"
-    )
+    parser = _add_numbered(commands, "figure")
     parser.set_defaults(command=_figure)
+
+
+def _add_table(commands: Any) -> None:
+    parser = _add_numbered(commands, "table")
+    parser.set_defaults(command=_table)
+
+
+def _add_numbered(commands: Any, what: str) -> argparse.ArgumentParser:
+    parser: argparse.ArgumentParser = commands.add_parser(
+        what, help=f"make a {what} of the paper", description=f"Make a {what} of the paper."
+    )
+    parser.add_argument("number", metavar="N|all", help=f"number of the {what}, or all")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        default=_PAPER,
+        help=f"folder of the {what}s (default: {_PAPER})",
+    )
+    return parser
 
 
 def _figure(arguments: argparse.Namespace) -> int:
     from validation.figures import FIGURES, make_figure
 
-    numbers = sorted(FIGURES)
-    if arguments.number != "all":
-        numbers = [number for number in numbers if str(number) == arguments.number]
-    if not numbers:
-        raise CaseError(
-            file="figure",
-            key="N",
-            found=repr(arguments.number),
-            expected="one of " + ", ".join(map(str, sorted(FIGURES))) + " or all",
-        )
-    directory = Path(arguments.output)
-    _check_writable(directory)
+    numbers = _numbers("figure", arguments, list(FIGURES))
     for number in numbers:
-        print(make_figure(number, directory))
+        print(make_figure(number, arguments.output))
+    if arguments.number == "all":
+        print("figures 1 and 5 of the paper are a sketch and photographs")
     return DONE
+
+
+def _table(arguments: argparse.Namespace) -> int:
+    from validation.tables import TABLES, make_table
+
+    for number in _numbers("table", arguments, list(TABLES)):
+        path = make_table(number, arguments.output)
+        print(path.read_text(encoding="utf-8"))
+        print(path)
+    return DONE
+
+
+def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list[int]:
+    """Numbers that are asked for, once it is clear that they can be made and written."""
+    _check_writable(Path(arguments.output))
+    if arguments.number == "all":
+        return sorted(known)
+    if arguments.number not in map(str, known):
+        expected = f"one of {', '.join(map(str, sorted(known)))} or all"
+        raise CaseError(file=what, key="N", found=repr(arguments.number), expected=expected)
+    return [int(arguments.number)]
 
 
 if __name__ == "__main__":

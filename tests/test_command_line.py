@@ -313,16 +313,29 @@ def test_wrong_calibration_gives_one_line_and_writes_nothing(words, tmp_path, mo
 def test_help_lists_every_command(capsys):
     assert command("--help") == 0
     shown = capsys.readouterr().out
-    for name in ("run", "check", "template", "calibrate", "figure"):
+    for name in ("run", "check", "template", "calibrate", "figure", "table"):
         assert re.search(rf"^    {name}\b", shown, flags=re.MULTILINE)
 
 
-def test_unknown_figure_is_refused(capsys, tmp_path):
-    assert command("figure", "1000", "-o", tmp_path / "out") == 2
+@pytest.mark.parametrize("what", ["figure", "table"])
+def test_unknown_number_is_refused(what, capsys, tmp_path):
+    assert command(what, "1000", "-o", tmp_path / "out") == 2
     printed = capsys.readouterr()
     assert "1000" in printed.err
     assert len(printed.err.splitlines()) == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_table_is_printed_and_written(tmp_path, capsys):
+    assert command("table", "3", "-o", tmp_path / "out") == 0
+    assert "asphalt" in capsys.readouterr().out
+    assert (tmp_path / "out" / "table3.csv").exists()
+
+
+def test_figure_is_written(tmp_path, capsys):
+    assert command("figure", "7", "-o", tmp_path / "out") == 0
+    assert capsys.readouterr().out == f"{tmp_path / 'out' / 'fig7.png'}\n"
+    assert (tmp_path / "out" / "fig7.png").exists()
 
 
 def test_module_runs_as_a_program():
