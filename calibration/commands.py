@@ -6,26 +6,35 @@ Everything is computed before anything is written, so that bad data leave no tra
 import argparse
 import os
 import sys
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from calibration.conductance import (
+    ALSO,
+    conductance_constant,
+    fit_conductance,
+    read_heating_record,
+)
 from calibration.errors import DataError
 from calibration.fit_core import FitResult
 from calibration.friction import LAWS, compare_laws, fit_friction, read_friction
+from calibration.heating_rig import HeatingRig
 from calibration.hyperelastic import compare_models, fit_hyperelastic, select_data
 from calibration.parameter_file import parameter_text
 from calibration.plots import (
     plot_comparison,
+    plot_conductance,
     plot_friction,
     plot_hyperelastic,
     plot_master_curve,
     plot_wlf,
     png,
 )
+from calibration.rig_file import read_contact_surface, read_heating_rig
 from calibration.stress_models import STRESS_MODELS
 from calibration.tables import read_table
 from calibration.wlf import fit_wlf, shift_sweeps
@@ -141,6 +150,39 @@ def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None) -> Outcome:
     )
     files |= _files(result, points) | {"fit.png": png(plot_wlf(result))}
     return Outcome(text=_heading(result, path) + extra, files=files)
+
+
+def calibrate_conductance(
+    path: str | Path, *, rig_file: str | Path | None = None, also: Sequence[str] = ()
+) -> Outcome:
+    """Identify the gap conductance from a heating test in the CSV file `path`.
+
+    The rig file (TOML) gives dimensions, materials and thermocouples, and with a table
+    ``[surface]`` what the constant C of eq. (11) needs.
+    """
+    rig = HeatingRig() if rig_file is None else read_heating_rig(rig_file)
+    surface = None if rig_file is None else read_contact_surface(rig_file)
+    record = read_heating_record(path, rig)
+    result = fit_conductance(path, rig, also=also)
+    names = [f"{name}_C" for name in record.names]
+    fitted = pd.DataFrame(result.predicted.reshape(record.readings.shape), columns=names)
+    points = pd.concat(
+        [
+            pd.DataFrame({"row": record.table.rows, "time_s": record.time}),
+            pd.DataFrame(record.readings, columns=names),
+            fitted.add_prefix("fit_"),
+        ],
+        axis=1,
+    )
+    text = _heading(result, path)
+    if rig_file is None:
+        text += "\n  dimensions of the rig are the assumed defaults: give yours with --rig"
+    if surface is not None:
+        constant = conductance_constant(result, surface)
+        result = replace(result, metadata={**result.metadata, "C_of_eq_11": constant.value})
+        text += f"\n  C of eq. (11): {constant.value:.4g} +- {constant.stderr:.2g}"
+    files = _files(result, points) | {"fit.png": png(plot_conductance(result, record))}
+    return Outcome(text=text, files=files)
 
 
 def _files(result: FitResult, points: pd.DataFrame) -> dict[str, bytes]:
@@ -274,6 +316,18 @@ def _add_wlf(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_conductance(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--rig", metavar="RIG.toml", help="dimensions of the rig and its parts")
+    parser.add_argument(
+        "--also", choices=ALSO, action="append", default=[], help="heat losses to fit as well"
+    )
+    parser.set_defaults(
+        calibrate=lambda arguments: calibrate_conductance(
+            arguments.data, rig_file=arguments.rig, also=arguments.also
+        )
+    )
+
+
 def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
     parser.add_argument(
         "--fix", metavar="NAME=VALUE", type=_fixed, action="append", help="hold a parameter"
@@ -316,5 +370,6 @@ def _fixed(text: str) -> tuple[str, float]:
 KINDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
     "hyperelastic": (_add_hyperelastic, "a hyperelastic model to stress-stretch tests"),
     "friction": (_add_friction, "a friction law to friction coefficients"),
+    "conductance": (_add_conductance, "the gap conductance to a static heating test"),
     "wlf": (_add_wlf, "the WLF shift to shift factors or frequency sweeps"),
 }

@@ -20,8 +20,9 @@ Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 
 CORRELATION_LIMIT = 0.99
 _SINGULAR = 1e-10  # smallest singular value of the column-scaled Jacobian, relative to the largest
-_ENOUGH_TO_SEARCH = 500  # points that the starts are compared on when there are more
-_AGREEMENT = 1e-6  # starts whose cost is that close to the best count as the same minimum
+_ENOUGH_TO_SEARCH = 300  # points that the starts are compared on when there are more
+_REFINED = 3  # rough minima, the lowest, that are refined
+_AGREEMENT = 1e-2  # rough minima whose cost is that close to the lowest count as the same
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -288,12 +289,20 @@ def minimise(
     inside = np.clip(starts, problem.lower, problem.upper)
     inside = np.unique(inside[np.all(np.isfinite(inside), axis=1)], axis=0)
     small = _thinned(problem)
-    best = _best_of(small, inside, loss, noise)
+    found = _searched(small, inside, loss, noise)
+    best = _lowest([_local(small, result.x, loss, noise) for result in found[:_REFINED]])
     if small is not problem:
-        counts = best.agreeing, best.tried
-        best = _best_of(problem, best.x[None, :], loss, noise)
-        best.agreeing, best.tried = counts
+        best = _lowest([_local(problem, best.x, loss, noise)])
+    best.tried = len(inside)
+    best.agreeing = sum(result.cost <= (1.0 + _AGREEMENT) * found[0].cost for result in found)
     return _polished(problem, best) if loss == "linear" else best
+
+
+def _lowest(results: list[optimize.OptimizeResult | None]) -> optimize.OptimizeResult:
+    whole = [result for result in results if result is not None]
+    if not whole:
+        raise ValueError("no start gives finite predictions; expected data the model can follow")
+    return min(whole, key=lambda result: float(result.cost))
 
 
 def _thinned(problem: Problem) -> Problem:
@@ -303,16 +312,16 @@ def _thinned(problem: Problem) -> Problem:
     return problem.subset(np.linspace(0, n - 1, _ENOUGH_TO_SEARCH).round().astype(np.intp))
 
 
-def _best_of(problem: Problem, starts: Array, loss: Loss, noise: float) -> optimize.OptimizeResult:
-    tried = (_local(problem, start, loss, noise) for start in starts)
-    found = [result for result in tried if result is not None]
-    if not found:
-        raise ValueError("no start gives finite predictions; expected data the model can follow")
-    best = min(found, key=lambda result: float(result.cost))
-    scale = best.cost + 1e-20 * float(np.sum(problem.observed**2))
-    best.agreeing = sum(result.cost <= best.cost + _AGREEMENT * scale for result in found)
-    best.tried = len(starts)
-    return best
+def _searched(
+    problem: Problem, starts: Array, loss: Loss, noise: float
+) -> list[optimize.OptimizeResult]:
+    """Rough minima from all starts, the lowest first."""
+    if len(starts) <= _REFINED:
+        return [optimize.OptimizeResult(x=start, cost=0.0) for start in starts]
+    rough = [_local(problem, start, loss, noise, tolerance=1e-5, steps=60) for start in starts]
+    return sorted(
+        (result for result in rough if result is not None), key=lambda result: float(result.cost)
+    )
 
 
 def _solve_linear(problem: Problem) -> optimize.OptimizeResult | None:
@@ -332,7 +341,13 @@ def _solve_linear(problem: Problem) -> optimize.OptimizeResult | None:
 
 
 def _local(
-    problem: Problem, start: Array, loss: Loss, noise: float
+    problem: Problem,
+    start: Array,
+    loss: Loss,
+    noise: float,
+    *,
+    tolerance: float = 1e-10,
+    steps: int = 200,
 ) -> optimize.OptimizeResult | None:
     width = problem.upper - problem.lower
     inset = np.minimum(1e-8 * np.maximum(1.0, np.abs(start)), 0.25 * width)
@@ -344,7 +359,7 @@ def _local(
             return optimize.least_squares(
                 problem.residuals, start, jac=problem.slopes,
                 bounds=(problem.lower, problem.upper), x_scale="jac", loss=loss, f_scale=noise,
-                ftol=1e-10, xtol=1e-10, gtol=1e-12, max_nfev=200,
+                ftol=tolerance, xtol=tolerance, gtol=1e-12, max_nfev=steps,
             )  # fmt: skip
         except (ValueError, np.linalg.LinAlgError):
             return None  # the model stopped being finite on the way: another start will do

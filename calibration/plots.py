@@ -9,6 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from calibration.conductance import HeatingRecord
 from calibration.fit_core import FitResult
 from calibration.friction import FrictionData
 from calibration.hyperelastic import StressData
@@ -132,6 +133,28 @@ def plot_master_curve(master: MasterCurve) -> Figure:
     axes.set_ylabel("modulus [N/mm²]")
     axes.set_title(f"overlap error {master.overlap_error:.2g} decades", fontsize=10)
     axes.legend(fontsize=7, ncols=2)
+    return figure
+
+
+def plot_conductance(result: FitResult, record: HeatingRecord) -> Figure:
+    """Thermocouple readings over time with those of the fitted rig, and the residuals below."""
+    figure, (above, below) = _panels()
+    fitted = result.predicted.reshape(record.readings.shape)
+    every = max(1, len(record.time) // 150)
+    minutes = record.time / 60.0
+    for i, name in enumerate(record.names):
+        colour = COLOURS[i % len(COLOURS)]
+        dots = {"marker": "o", "color": colour, "linestyle": "none", "markersize": 3, "alpha": 0.5}
+        above.plot(minutes[::every], record.readings[::every, i], **dots)
+        above.plot(minutes, fitted[:, i], color=colour, label=name)
+        below.plot(minutes[::every], (fitted - record.readings)[::every, i], **dots)
+    h, error = result.values["h_W_per_m2K"], result.stderr["h_W_per_m2K"]
+    pressure = result.metadata["pressure_N_per_mm2"]
+    above.set_title(f"h = {h:.4g} ± {error:.2g} W/(m² K) at {pressure:g} N/mm²", fontsize=10)
+    above.set_ylabel("temperature [°C]")
+    above.legend(fontsize=8, ncols=2)
+    below.set_xlabel("time [min]")
+    below.set_ylabel("fit - data [K]")
     return figure
 
 

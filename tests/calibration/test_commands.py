@@ -7,7 +7,9 @@ import pandas as pd
 import pytest
 
 from calibration import commands
+from calibration.conductance import synthetic_heating_record
 from calibration.datasets import dataset_path
+from calibration.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synthetic_sweeps
 from contact import HuemerFriction
 from materials import WLF
@@ -88,6 +90,24 @@ def test_sweeps_leave_a_master_curve(tmp_path, capsys):
     content = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())
     assert content["friction"]["T_ref_C"] == 20.0
     assert content["friction"]["d1"] == pytest.approx(17.0, rel=0.02)
+
+
+def test_conductance_is_found_and_c_of_eq_11_follows(tmp_path, capsys):
+    data, rig = tmp_path / "heating.csv", tmp_path / "rig.toml"
+    rig.write_text(
+        "[rig]\nambient_C = 20.0\n[surface]\nmean_conductivity_W_per_mK = 0.404\n"
+        "effective_modulus_N_per_mm2 = 8.0\nrms_roughness_um = 300.0\nmean_slope = 0.3\n"
+    )
+    synthetic_heating_record(HeatingRig(ambient_C=20.0), h_W_per_m2K=1600.0).to_csv(
+        data, index=False
+    )
+    assert run(["conductance", data, "--rig", rig, "-o", tmp_path / "o"]) == 0
+    assert "C of eq. (11)" in capsys.readouterr().out
+    content = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())
+    assert content["heat"]["conductance_W_per_m2K"] == pytest.approx(1600.0, rel=0.05)
+    assert content["fit"]["C_of_eq_11"] > 0.0
+    names = {"parameters.toml", "fit.csv", "fit.png"}
+    assert {path.name for path in (tmp_path / "o").iterdir()} == names
 
 
 def test_the_same_data_give_the_same_bytes(tmp_path):
