@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import datetime
 import math
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 from pydantic import ValidationError
 
@@ -281,6 +283,58 @@ def test_fault_is_named_in_one_line(wrong: WrongCase, tmp_path):
     assert wrong.found in error.found
     assert wrong.expected in error.expected
     assert len(str(error).splitlines()) == 1
+
+
+KEYS = [
+    (section, key)
+    for section, table in case_with().to_dict().items()
+    for key in (*table, "parameters", "lambda_m", "mu")
+]
+ODD_VALUES = [
+    0,
+    -1,
+    1e-320,
+    1e308,
+    -math.inf,
+    math.nan,
+    10**400,
+    True,
+    "",
+    "huemer",
+    [],
+    [1.0],
+    {},
+    {"law": "power"},
+    {"law": {"law": 1}},
+    datetime.time(12),
+    None,
+]
+
+
+@pytest.mark.parametrize(("section", "key"), KEYS, ids=".".join)
+def test_any_value_of_any_key_is_taken_or_refused_in_one_line(section, key):
+    for value in ODD_VALUES:
+        tables = {"loading": dict(LOADING)}
+        tables.setdefault(section, {})[key] = value
+        text = fault_of(tables)
+        assert len(text.splitlines()) <= 1
+        assert text == "" or key in text or section in text
+
+
+def fault_of(tables: dict) -> str:
+    """Text of the error, empty when the case is accepted; any other error passes through."""
+    try:
+        Case.from_dict(tables)
+    except CaseError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.parametrize("number", [np.float64(50.0), np.int64(50), np.float32(50.0)])
+def test_numpy_numbers_are_numbers(number):
+    case = case_with().with_overrides({"loading.velocity_mm_per_s": number})
+    assert case == case_with(loading={**LOADING, "velocity_mm_per_s": 50.0})
+    assert "velocity_mm_per_s = 50.0 " in case.to_toml()
 
 
 def test_texts_in_errors_cannot_break_the_line():
