@@ -16,8 +16,9 @@ from calibration.conductance import (
 from calibration.errors import DataError
 from calibration.fit_core import FitResult
 from calibration.heating_rig import HeatingRig, default_thermocouples
-from calibration.rig_file import read_heating_rig
+from calibration.rig_file import read_contact_surface, read_heating_rig
 from contact.conductance import ContactSurface, mikic_conductance
+from fem.case import Case
 
 KNOWN = HeatingRig(ambient_C=20.0)
 SURFACE = ContactSurface(
@@ -109,6 +110,18 @@ def test_parameter_file_has_the_keys_of_the_heat_section(fitted, tmp_path):
         "pressure_N_per_mm2": 0.3,
         "exponent": 0.94,
     }
+
+
+def test_a_case_takes_the_parameter_file(fitted, tmp_path):
+    fitted.to_toml(tmp_path / "h.toml")
+    loading = {
+        "mean_pressure_N_per_mm2": 0.25,
+        "velocity_mm_per_s": 300.0,
+        "distance_mm": 120.0,
+    }
+    case = Case.from_dict({"loading": loading, "heat": {"parameters": "h.toml"}}, folder=tmp_path)
+    h = float(case.heat.conductance_object().conductance(0.3))
+    assert h == pytest.approx(fitted.values["h_W_per_m2K"], rel=1e-12)
 
 
 def test_constant_of_the_law_gives_the_conductance_back(fitted):
@@ -226,6 +239,42 @@ def test_bad_rig_files_are_refused_in_one_line(tmp_path, text, parts):
         read_heating_rig(path)
     assert "\n" not in str(caught.value)
     assert str(path) in str(caught.value)
+    for part in parts:
+        assert part in str(caught.value)
+
+
+SURFACE_TABLE = """
+[surface]
+mean_conductivity_W_per_mK = 0.404
+effective_modulus_N_per_mm2 = 8.0
+rms_roughness_um = 80.0
+mean_slope = 0.4
+"""
+
+
+def test_rig_file_may_describe_the_surface(tmp_path):
+    path = tmp_path / "rig.toml"
+    path.write_text(RIG_FILE + SURFACE_TABLE)
+    assert read_contact_surface(path) == SURFACE
+    assert read_heating_rig(path).asphalt_length_mm == 200.0
+    path.write_text(RIG_FILE)
+    assert read_contact_surface(path) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("[surface]\nmean_slope = 0.4", ["mean_conductivity_W_per_mK", "a number"]),
+        (SURFACE_TABLE.replace("= 0.4\n", "= -0.4\n"), ["[surface]", "mean_slope"]),
+        (SURFACE_TABLE + "slope = 0.4", ["the key slope", "mean_slope"]),
+    ],
+)
+def test_bad_surfaces_are_refused_in_one_line(tmp_path, text, parts):
+    path = tmp_path / "rig.toml"
+    path.write_text(text)
+    with pytest.raises(DataError) as caught:
+        read_contact_surface(path)
+    assert "\n" not in str(caught.value)
     for part in parts:
         assert part in str(caught.value)
 
