@@ -11,7 +11,7 @@ from validation.compound_names import COMPOUND_LOOKS
 from validation.fig8 import reached
 from validation.fig9 import COMPOUND
 from validation.study import STUDIES, StudyRun, study_runs
-from validation.style import COLUMN_WIDTH, new_figure, save, styled
+from validation.style import PAGE_WIDTH, new_figure, save, styled
 
 
 def make(directory: Path) -> Path:
@@ -35,7 +35,7 @@ def profile_table(runs: list[StudyRun], columns: dict[str, str]) -> pd.DataFrame
 @styled
 def draw(runs: list[StudyRun]) -> Figure:
     """Draw one curve per compound with its interior maximum in the legend."""
-    figure = new_figure(COLUMN_WIDTH, 85.0)
+    figure = new_figure(PAGE_WIDTH, 100.0)
     axes = figure.subplots()
     by_name = {run[COMPOUND]: run.result for run in runs}
     for name, look in COMPOUND_LOOKS.items():
@@ -50,8 +50,10 @@ def draw(runs: list[StudyRun]) -> Figure:
             )
     axes.set_xlabel("$X$ from the trailing to the leading corner [mm]")
     axes.set_ylabel("$T$ at the bottom surface [°C]")
-    axes.set_xlim(left=0.0)
-    axes.legend(loc="lower center", title="interior maximum $T_{max}$")
+    axes.set_xlim(0.0, max(float(run.result.surface["X_mm"].max()) for run in runs))
+    handles, labels = axes.get_legend_handles_labels()
+    title = "with the interior maximum $T_{max}$"
+    figure.legend(handles, labels, loc="outside lower center", ncols=2, title=title)
     axes.grid(True)
     return figure
 

@@ -39,7 +39,7 @@ def draw(runs: list[StudyRun]) -> Figure:
         axes.set_title(f"$v$ = {velocity:g} mm/s")
         axes.set_xlabel("$X$ [mm]")
         axes.set_ylabel("$T$ at the bottom surface [°C]" if axes is panels[0] else "")
-        axes.set_xlim(left=0.0)
+        axes.set_xlim(0.0, float(surface["X_mm"].max()))
         axes.grid(True)
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2)

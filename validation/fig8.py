@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from fem.results import Result
 from validation.field_panels import (
     BlockState,
+    Panel,
     colour_bar,
     draw_panel,
     mesh_panel,
@@ -24,6 +25,12 @@ from validation.style import PAGE_WIDTH, new_figure, save, styled
 DETAIL_ASPECT = 0.66
 #: Widths of the columns, such that both panels of a row are about equally high.
 WIDTHS = (1.6, 1.0)
+#: Rows of fields: how to draw, title, label and ends of the colour bar.
+PANELS: tuple[tuple[Panel, str, str | None, str], ...] = (
+    (mesh_panel, "(a) Deformed mesh", None, "neither"),
+    (temperature_panel, "(b) Temperature", "$T$ [°C]", "neither"),
+    (stress_panel, "(c) Vertical normal stress", r"$\sigma_y$ [N/mm²]", "both"),
+)
 SHOWN = ("time_s", "sliding_distance_mm", "friction_coefficient", "T_max_C", "T_edge_C")
 
 
@@ -77,14 +84,9 @@ def draw(result: Result) -> Figure:
 
 
 def draw_fields(figure: Figure, rows: list[list[Axes]], state: BlockState) -> None:
-    """Draw three rows of panels: mesh, temperature, stress; the whole block and the front edge."""
+    """Draw as many of `PANELS` as there are rows: the whole block and its front edge."""
     whole, detail = state.whole, state.front(DETAIL_ASPECT)
-    panels = (
-        (mesh_panel, "(a) Deformed mesh", None, "neither"),
-        (temperature_panel, "(b) Temperature", "$T$ [°C]", "neither"),
-        (stress_panel, "(c) Vertical normal stress", r"$\sigma_y$ [N/mm²]", "both"),
-    )
-    for (left, right), (panel, title, label, extend) in zip(rows, panels, strict=True):
+    for (left, right), (panel, title, label, extend) in zip(rows, PANELS, strict=False):
         for axes, window, inset, text in (
             (left, whole, detail, title),
             (right, detail, None, "Front edge"),
@@ -92,7 +94,7 @@ def draw_fields(figure: Figure, rows: list[list[Axes]], state: BlockState) -> No
             field = draw_panel(axes, panel, state, window, title=text, detail=inset)
             if field is not None and label is not None:
                 colour_bar(figure, axes, field, label, extend=extend)
-            if panel is stress_panel:
+            if left is rows[-1][0]:
                 axes.set_xlabel("$x$ in the platen's frame [mm]")
 
 

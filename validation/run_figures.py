@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from fem.columns import HISTORY, SURFACE
 from fem.results import HISTORY_FILE, SURFACE_FILE, Result, read_summary, read_table
-from validation.fig8 import WIDTHS, draw_fields, last_state
+from validation.fig8 import PANELS, WIDTHS, draw_fields, last_state
 from validation.history_panels import (
     draw_contact,
     draw_forces,
@@ -79,7 +79,11 @@ def draw_surface(surface: pd.DataFrame, T_max: float | None) -> Figure:
 
 @styled
 def draw_final_state(result: Result) -> Figure:
-    """Draw mesh, temperature and vertical stress at the end, each with the front edge."""
-    figure = new_figure(PAGE_WIDTH, 146.0)
-    draw_fields(figure, figure.subplots(3, 2, width_ratios=WIDTHS), last_state(result))
+    """Draw mesh, temperature and vertical stress at the end, each with the front edge.
+
+    A rigid block has no stress to draw.
+    """
+    rows = 2 if result.case.block.rigid else len(PANELS)
+    figure = new_figure(PAGE_WIDTH, 5.0 + 47.0 * rows)
+    draw_fields(figure, figure.subplots(rows, 2, width_ratios=WIDTHS), last_state(result))
     return figure

@@ -25,6 +25,11 @@ def assert_nothing_overlaps(figure: Figure) -> None:
         assert page.containsy(box.y0)
         assert page.containsy(box.y1)
         boxes.append((axes, box.padded(-1.0)))
+    for legend in figure.legends:
+        box = legend.get_window_extent(renderer)
+        assert page.contains(box.x0, box.y0), "the legend leaves the page"
+        assert page.contains(box.x1, box.y1), "the legend leaves the page"
+        assert not any(box.overlaps(other) for _, other in boxes), "the legend lies over a panel"
     for (one, a), (other, b) in combinations(boxes, 2):
         if other in one.child_axes or one in other.child_axes:
             continue

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -93,6 +95,13 @@ def test_a_run_without_accepted_steps_has_no_pictures(tmp_path, result):
     )
     empty.write(tmp_path)
     assert run_figures.write_run_figures(tmp_path) == []
+
+
+def test_a_rigid_block_is_drawn_without_stress(result):
+    rigid = dataclasses.replace(result, case=result.case.with_overrides({"block.rigid": True}))
+    figure = run_figures.draw_final_state(rigid)
+    assert len(figure.axes) == 4
+    assert_nothing_overlaps(figure)
 
 
 def test_run_pictures_are_labelled_and_nothing_overlaps(result):

@@ -142,6 +142,16 @@ def test_a_run_that_stopped_says_so_in_its_panel(compound_runs):
     assert_nothing_overlaps(figure)
 
 
+def test_figure_10_has_room_for_the_legend_of_runs_that_stopped(compound_runs):
+    for run in compound_runs:
+        run.result.summary["status"] = "not converged"
+    try:
+        assert_nothing_overlaps(fig10.draw(compound_runs))
+    finally:
+        for run in compound_runs:
+            run.result.summary["status"] = "ok"
+
+
 def test_figure_12_leaves_out_runs_that_stopped():
     runs = [made_up_run(loading__mean_pressure_N_per_mm2=p) for p in (0.2, 0.3)]
     runs[0].result.summary["status"] = "not converged"
