@@ -72,7 +72,9 @@ class Outcome:
                 temporary.unlink(missing_ok=True)
 
 
-def calibrate_hyperelastic(path: str | Path, *, compare: bool = True, **options: Any) -> Outcome:
+def calibrate_hyperelastic(
+    path: str | Path, *, compare: bool = True, intervals: str = "student", **options: Any
+) -> Outcome:
     """Fit a hyperelastic model to the CSV file `path` (options of `fit_hyperelastic`)."""
     choice = {k: options.pop(k) for k in ("cycle", "branch", "window", "modes") if k in options}
     model = options.pop("model", "yeoh")
@@ -88,6 +90,7 @@ def calibrate_hyperelastic(path: str | Path, *, compare: bool = True, **options:
             "residual_N_per_mm2": result.predicted - result.observed,
         }
     )
+    result = _with_intervals(result, intervals)
     files = _files(result, points) | {"fit.png": png(plot_hyperelastic(result, data))}
     text = _heading(result, path)
     if compare:
@@ -101,7 +104,9 @@ def calibrate_hyperelastic(path: str | Path, *, compare: bool = True, **options:
     return Outcome(text=text, files=files)
 
 
-def calibrate_friction(path: str | Path, *, compare: bool = True, **options: Any) -> Outcome:
+def calibrate_friction(
+    path: str | Path, *, compare: bool = True, intervals: str = "student", **options: Any
+) -> Outcome:
     """Fit a friction law to the CSV file `path` (options of `fit_friction`)."""
     law = options.pop("law", "huemer")
     data = read_friction(path)
@@ -117,6 +122,7 @@ def calibrate_friction(path: str | Path, *, compare: bool = True, **options: Any
             "residual": result.predicted - result.observed,
         }
     )
+    result = _with_intervals(result, intervals)
     files = _files(result, points) | {"fit.png": png(plot_friction(result, data))}
     text = _heading(result, path)
     if compare:
@@ -185,6 +191,17 @@ def calibrate_conductance(
     return Outcome(text=text, files=files)
 
 
+def _with_intervals(result: FitResult, kind: str) -> FitResult:
+    """The result with its 95 % intervals in the metadata, which the parameter file repeats."""
+    found = {
+        "student": lambda: result.interval(),
+        "profile": lambda: {name: result.profile(name) for name in result.names},
+        "bootstrap": lambda: result.bootstrap(),
+    }[kind]()
+    limits = {name: [float(low), float(high)] for name, (low, high) in found.items()}
+    return replace(result, metadata={**result.metadata, "interval_95": {"kind": kind, **limits}})
+
+
 def _files(result: FitResult, points: pd.DataFrame) -> dict[str, bytes]:
     return {"parameters.toml": parameter_text(result).encode(), "fit.csv": _csv(points)}
 
@@ -204,7 +221,11 @@ def _heading(result: FitResult, path: str | Path) -> str:
         for key in ("cycle", "branch", "window", "modes", "normalisation", "T_ref_C")
         if key in result.metadata
     ]
-    return "\n".join([*about, result.summary()])
+    limits = {k: v for k, v in result.metadata.get("interval_95", {}).items() if k != "kind"}
+    lines = [f"    {name}: {low:.6g} to {high:.6g}" for name, (low, high) in limits.items()]
+    if lines:
+        lines.insert(0, f"  95 % intervals ({result.metadata['interval_95']['kind']}):")
+    return "\n".join([*about, result.summary(), *lines])
 
 
 # -- command line --------------------------------------------------------------------------------
@@ -338,6 +359,10 @@ def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
         help="a robust loss bounds the pull of outliers",
     )  # fmt: skip
     parser.add_argument("--noise", type=float, help=f"residual where that begins [{unit}]")
+    parser.add_argument(
+        "--intervals", choices=("student", "profile", "bootstrap"), default="student",
+        help="95 %% intervals from the covariance, the profile or resampling",
+    )  # fmt: skip
     parser.add_argument("--no-compare", action="store_true", help="leave out the other models")
 
 
@@ -348,6 +373,7 @@ def _common(arguments: argparse.Namespace) -> dict[str, Any]:
         "starts": arguments.starts,
         "loss": arguments.loss,
         "compare": not arguments.no_compare,
+        "intervals": arguments.intervals,
     }
 
 

@@ -318,6 +318,8 @@ def _chosen_cycle(
         cycles = source.numbers("cycle")
         source.require_all("cycle", cycles == np.round(cycles), "a whole number")
         number = cycles.astype(np.int64)
+        if branches is None:
+            branches = _branches_within(stretch, mode, number)
     elif wanted not in (None, "all") or (branch != "both" and branches is None):
         number, branches = _labelled(stretch, mode)
     else:
@@ -335,6 +337,18 @@ def _chosen_cycle(
         source.refuse(column="cycle", found=found, expected="a full cycle, or cycle = all")
     label = ", ".join(f"{name} {cycle}" for name, cycle in by_mode.items())
     return keep, branches, f"last full cycle at the highest strain ({label})"
+
+
+def _branches_within(
+    stretch: Array, mode: NDArray[np.str_], number: NDArray[np.int64]
+) -> NDArray[np.str_]:
+    """Branches from the course of the stretch in every cycle of every mode."""
+    branches = np.empty(stretch.size, dtype="<U6")
+    for name in np.unique(mode):
+        for cycle in np.unique(number[mode == name]):
+            here = (mode == name) & (number == cycle)
+            branches[here] = label_cycles(stretch[here])[1]
+    return branches
 
 
 def _labelled(stretch: Array, mode: NDArray[np.str_]) -> tuple[NDArray[np.int64], NDArray[np.str_]]:

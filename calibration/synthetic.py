@@ -75,7 +75,8 @@ def synthetic_stress(
     tests = TABLE_1[name]
     stretch = np.linspace(tests.low, tests.high, points)
     stress = compound(name).nominal_stress(stretch, "uniaxial")
-    noise = np.random.default_rng(seed).normal(0.0, 1.0, points) * noise_N_per_mm2
+    rng = np.random.default_rng([seed, list(TABLE_1).index(name)])
+    noise = rng.normal(0.0, 1.0, points) * noise_N_per_mm2
     return _stress_table(stretch, stress + noise)
 
 

@@ -52,6 +52,16 @@ def test_options_reach_the_fit(tmp_path):
     assert not (tmp_path / "o" / "models.csv").exists()
 
 
+@pytest.mark.parametrize("kind", ["student", "profile", "bootstrap"])
+def test_intervals_can_be_asked_for(kind, tmp_path, capsys):
+    words = ["--model", "van-der-waals", "--intervals", kind, "--no-compare"]
+    assert run(["hyperelastic", dataset_path("kawabata1981"), *words, "-o", tmp_path / "o"]) == 0
+    assert f"95 % intervals ({kind})" in capsys.readouterr().out
+    fit = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())["fit"]
+    low, high = fit["interval_95"]["lambda_m"]
+    assert low < fit["values"]["lambda_m"] < high
+
+
 def test_friction_writes_a_comparison_of_the_curves(tmp_path, capsys):
     data = tmp_path / "friction.csv"
     synthetic_friction(HuemerFriction(), repeats=1).to_csv(data, index=False)

@@ -67,6 +67,15 @@ def test_a_record_without_cycle_columns_gives_the_same_fit():
     assert fit_hyperelastic(bare, "yeoh").n_data == len(bars)
 
 
+def test_numbered_cycles_without_branches_leave_out_the_path_to_failure_as_well():
+    bars = synthetic_bar_cycles(1)
+    found = select_data(bars.drop(columns=["branch"]))
+    assert set(found.table.frame["cycle"]) == {5}
+    loading = select_data(bars.drop(columns=["branch"]), branch="load")
+    assert len(loading.stretch) == pytest.approx(60, abs=1)
+    assert loading.stretch[0] < loading.stretch[-1]
+
+
 def test_a_cycle_that_is_not_there_is_refused():
     bars = synthetic_bar_cycles(1, points=10)
     with pytest.raises(
