@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import shlex
+import shutil
+import subprocess
 import tomllib
 from pathlib import Path
 
@@ -41,11 +43,12 @@ def test_the_way_from_template_to_check_works(tmp_path, monkeypatch, capsys):
     assert treadfem.main(["check", "my_case.toml"]) == 0
 
 
+@pytest.mark.skipif(shutil.which("make") is None, reason="make is not installed")
 @pytest.mark.parametrize("words", commands("make"), ids=" ".join)
 def test_make_target_exists(words):
-    makefile = (ROOT / "Makefile").read_text()
-    for target in words:
-        assert re.search(rf"^{target}:", makefile, flags=re.MULTILINE), target
+    dry = ["make", "--dry-run", *words]
+    done = subprocess.run(dry, cwd=ROOT, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("text", fenced("toml"))
