@@ -49,9 +49,7 @@ def _loading(**changes: str) -> str:
         "velocity_mm_per_s": "300.0",
         "distance_mm": "120.0",
     }
-    return "[loading]\n" + "".join(
-        f"{k} = {v}\n" for k, v in {**values, **changes}.items() if v is not None
-    )
+    return "[loading]\n" + "".join(f"{k} = {v}\n" for k, v in {**values, **changes}.items())
 
 
 def _missing(path: Path) -> None:
