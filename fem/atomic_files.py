@@ -33,7 +33,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 def staged_directory(
     directory: str | Path, *, outdated: Sequence[str] = (), last: str | None = None
 ) -> Iterator[Path]:
-    """Give a temporary folder beside `directory` whose content moves there if the block succeeds.
+    """Give a temporary folder whose content moves to `directory` if the block succeeds.
 
     A folder that does not exist yet appears in one rename. In one that exists, files of the same
     name are replaced one by one, other files stay. There, the file `last` is removed first and
@@ -49,13 +49,15 @@ def staged_directory(
         Name of the file that marks completeness.
     """
     target = Path(directory)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    stage = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
+    # Inside a folder that exists: it may be a mounted disk, and its parent closed to the user.
+    place = target if target.is_dir() else target.parent
+    place.mkdir(parents=True, exist_ok=True)
+    stage = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=place))
     # mkdtemp makes the folder private to its owner; the result has the usual permissions.
     stage.chmod(0o777 & ~_umask())
     try:
         yield stage
-        if target.is_dir() and any(target.iterdir()):
+        if place == target:
             _merge(stage, target, outdated, last)
         else:
             os.replace(stage, target)

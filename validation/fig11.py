@@ -6,6 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from validation.fig8 import reached
 from validation.fig10 import profile_table
 from validation.study import STUDIES, StudyRun, study_runs
 from validation.style import BLUE, PAGE_WIDTH, VERMILLION, new_figure, save, styled
@@ -36,7 +37,8 @@ def draw(runs: list[StudyRun]) -> Figure:
             axes.plot(
                 surface["X_mm"], surface["T_C"], color=colour, ls=dash, label=LAW_LABELS[run[LAW]]
             )
-        axes.set_title(f"$v$ = {velocity:g} mm/s")
+        stopped = {reached(run.result) for run in runs if run[VELOCITY] == velocity}
+        axes.set_title(f"$v$ = {velocity:g} mm/s{max(stopped)}")
         axes.set_xlabel("$X$ [mm]")
         axes.set_ylabel("$T$ at the bottom surface [°C]" if axes is panels[0] else "")
         axes.set_xlim(0.0, float(surface["X_mm"].max()))

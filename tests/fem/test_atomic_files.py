@@ -51,6 +51,22 @@ def test_an_interrupted_rewrite_leaves_the_earlier_folder_untouched(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["run"]
 
 
+def test_an_existing_folder_is_written_without_touching_its_parent(tmp_path):
+    target = tmp_path / "mounted"
+    target.mkdir()
+    with staged_directory(target) as stage:
+        assert [path.name for path in tmp_path.iterdir()] == ["mounted"]
+        (stage / "a.csv").write_text("1")
+    assert [path.name for path in target.iterdir()] == ["a.csv"]
+
+
+def test_the_current_folder_can_be_written(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with staged_directory(".") as stage:
+        (stage / "a.csv").write_text("1")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.csv"]
+
+
 def test_the_marker_of_completeness_arrives_last(tmp_path, monkeypatch):
     target = tmp_path / "run"
     target.mkdir()

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from fem.results import Result
-from fem.simulate import mesh_of
+from fem.simulate import mesh_of, simulate
 from tests.made_up_result import made_up_case, made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from validation import fig7, fig8, introductory, run_figures
@@ -102,6 +102,19 @@ def test_a_rigid_block_is_drawn_without_stress(result):
     figure = run_figures.draw_final_state(rigid)
     assert len(figure.axes) == 4
     assert_nothing_overlaps(figure)
+
+
+@pytest.mark.parametrize("velocity", [300.0, -300.0])
+def test_a_simulated_rigid_block_is_written_read_and_drawn(tmp_path, velocity):
+    case = made_up_case(velocity_mm_per_s=velocity, distance_mm=5.0)
+    case = case.with_overrides({"block.rigid": True, "block.mesh": "coarse"})
+    simulated = simulate(case)
+    simulated.write(tmp_path)
+    again = Result.read(tmp_path)
+    pd.testing.assert_frame_equal(again.history, simulated.history)
+    assert again.snapshots == simulated.snapshots
+    assert again.case == case
+    assert len(run_figures.write_run_figures(tmp_path)) == 3
 
 
 def test_run_pictures_are_labelled_and_nothing_overlaps(result):
