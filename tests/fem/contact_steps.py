@@ -1,0 +1,91 @@
+"""Steps of the mechanics alone, and blocks to make them with."""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import brentq
+
+from fem import newton
+from fem.elements import Q1P0Elements
+from fem.mechanics import BlockMechanics, StepLoad
+from fem.state import MechanicalState
+from fem.step_control import StepController, landed
+from materials import compound
+from tests.fem.small_blocks import uniform_block
+
+YEOH = compound("yeoh-bars-series-1-load")
+OPTIONS = newton.NewtonOptions(iterations_max=40)
+
+
+def small_block(mesh=None, model=YEOH, bulk_ratio=100.0, **options):
+    """Mechanics of a 6 x 4 mm block of 9 x 5 cells."""
+    mesh = mesh or uniform_block(6.0, 4.0, 9, 5)
+    elements = Q1P0Elements(mesh, model, bulk_ratio * model.initial_shear_modulus)
+    return BlockMechanics(mesh, elements, **{"tolerance": 1e-9, **options})
+
+
+def load_of(system, *, force, mu=0.0, sweep=0.0, dt=1.0):
+    values = np.broadcast_to(np.asarray(mu, dtype=float), (system.candidates.size,)).copy()
+    return StepLoad(dt=dt, sweep=sweep, force=force, mu=values)
+
+
+def solved(system, state, load):
+    """Problem and converged result of a step, and the state it leads to."""
+    problem = system.step(state, load)
+    result = newton.solve(problem, problem.start(), OPTIONS)
+    assert result.converged, (result.failure, result.detail)
+    x = result.x
+    after = MechanicalState(u=x.u, velocity=problem.velocity(x.u), p=x.p, status=x.status)
+    return problem, result, after
+
+
+def pressed(system, force, mu=0.0, steps=2, dt=1.0):
+    """State of a block pressed to a force in equal steps."""
+    state = system.initial_state()
+    for step in range(1, steps + 1):
+        load = load_of(system, force=force * step / steps, mu=mu, dt=dt)
+        _, _, state = solved(system, state, load)
+    return state
+
+
+def slid(system, state, *, distance, speed, force, mu, step=0.05):
+    """State after sliding a distance [mm] at a speed [mm/s] in steps that converge."""
+    control = StepController(step_max=step, step_min=1e-5)
+    at, length = 0.0, step
+    while at < distance:
+        length = landed(at, length, distance)
+        load = load_of(system, force=force, mu=mu, sweep=length, dt=length / speed)
+        problem = system.step(state, load)
+        result = newton.solve(problem, problem.start(), OPTIONS)
+        if result.converged:
+            at += length
+            state = MechanicalState(
+                u=result.x.u, velocity=problem.velocity(result.x.u), p=result.x.p,
+                status=result.x.status,
+            )  # fmt: skip
+            length = control.accepted(length, result.iterations)
+            continue
+        length = control.rejected(length)
+        assert not control.exhausted(length), (at, result.failure, result.detail)
+    return state
+
+
+def reactions(system, result):
+    """Normal and tangential force of the road on the candidates [N/mm]."""
+    nodal = result.evaluation.nodal[system.candidates]
+    return nodal[:, 1], nodal[:, 0]
+
+
+def cylinder_block(radius, half_width, cells_x, cells_y, *, cell, height):
+    """Block of 2 x half_width whose bottom is a parabola of the given radius at x = 0.
+
+    The cells near x = 0, y = 0 have the size `cell` and grow from there.
+    """
+    mesh = uniform_block(2.0, 1.0, cells_x, cells_y)
+    xi, eta = mesh.points[:, 0] - 1.0, mesh.points[:, 1]
+    b = brentq(lambda b: half_width * b * 2.0 / cells_x / np.sinh(b) - cell, 1e-3, 30.0)
+    c = brentq(lambda c: height * np.expm1(c / cells_y) / np.expm1(c) - cell, 1e-3, 30.0)
+    x = half_width * np.sinh(b * xi) / np.sinh(b)
+    y = height * np.expm1(c * eta) / np.expm1(c)
+    y = y + (1.0 - y / height) * x**2 / (2.0 * radius)
+    return replace(mesh, points=np.column_stack([x, y]))
