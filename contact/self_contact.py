@@ -196,6 +196,23 @@ def pair_forces(pairs: Pairs, x: FloatArray) -> PairForces:
     )  # fmt: skip
 
 
+def dissipation(pairs: Pairs, forces: PairForces) -> FloatArray:
+    """Friction work of the pairs since the accepted state, (k,) [mJ/mm].
+
+    The work of the tangential force less what its elastic part stores; never negative.
+    """
+    stored = (forces.shear**2 - pairs.shear_n**2) / (2.0 * pairs.stiffness)
+    work = 0.5 * (forces.shear + pairs.shear_n) * forces.slip
+    return np.where(forces.slipping, np.maximum(work - stored, 0.0), 0.0)
+
+
+def heat_sources(pairs: Pairs, forces: PairForces, heat: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Nodes and shares of the heat of the pairs (k,): half each side, (3 k,) both."""
+    xi = np.clip(forces.geometry.xi, 0.0, 1.0)
+    shares = 0.5 * heat[:, None] * np.column_stack([np.ones_like(xi), 1.0 - xi, xi])
+    return pairs.nodes.ravel(), shares.ravel()
+
+
 def pair_tangents(pairs: Pairs, forces: PairForces) -> FloatArray:
     """Derivative of the pair residuals with respect to s, a, b, (k, 6, 6) [N/mm^2]."""
     geo = forces.geometry

@@ -24,7 +24,7 @@ class EnergyAudit:
     Attributes
     ----------
     work_in, friction, viscous : float
-        Work of the platen, friction on the road, Kelvin-Voigt dissipation.
+        Work of the platen, friction (on the road and on itself), Kelvin-Voigt dissipation.
     strain_energy, kinetic : float
         Stored now.
     capped, dissipated : float
@@ -75,7 +75,7 @@ def audited(audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics) -
     dissipated = step.power * step.target.dt
     return EnergyAudit(
         work_in=audit.work_in + work,
-        friction=audit.friction + friction,
+        friction=audit.friction + friction + step.self_friction,
         viscous=audit.viscous + viscous_work(step, mechanics),
         strain_energy=mechanics.elements.strain_energy(step.evaluation.elements.kinematics),
         kinetic=kinetic,

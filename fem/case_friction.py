@@ -65,6 +65,10 @@ class Friction(Section):
     p_min_N_per_mm2: Positive = Field(1e-3, description="pressure floor of the law [N/mm^2]")
     v_min_mm_per_s: Positive = Field(1.0, description="velocity floor of the law [mm/s]")
 
+    rubber_on_rubber_mu: NotNegative = Field(
+        1.0, description="Coulomb's coefficient where the block touches itself [-]"
+    )
+
     @model_validator(mode="before")
     @classmethod
     def _parameters_of_the_law(cls, data: Any) -> Any:

@@ -132,9 +132,11 @@ class Solver(Section):
         2, description="passes per step over the lagged friction coefficient [-]"
     )
     inertia: bool = Field(True, description="backward-Euler inertia of the rubber")
-    viscous_time_s: NotNegative = Field(
-        0.01, description="Kelvin-Voigt relaxation time of the regularisation [s]; 0 is off"
+    viscous_distance_mm: NotNegative = Field(
+        15.0,
+        description="Kelvin-Voigt regularisation: relaxation time times velocity [mm]; 0 is off",
     )
+    self_contact: bool = Field(True, description="contact of the block's surface with itself")
     heat_step_mm: Positive = Field(0.5, description="longest sliding distance per heat step [mm]")
     steps_scale: Positive = Field(1.0, description="factor on all steps; 0.5 halves them [-]")
     linear_solver: Literal["auto", "superlu", "pardiso"] = Field(

@@ -16,7 +16,14 @@ from contact.active_set import ContactForces, ContactStatus
 from contact.conductance import GapConductance
 from contact.friction import ThermalFriction
 from contact.partition import HeatPartition
-from contact.self_contact import Pairs, find_pairs, touching
+from contact.self_contact import (
+    Pairs,
+    dissipation,
+    find_pairs,
+    heat_sources,
+    penetration,
+    touching,
+)
 from fem import newton
 from fem.heat import HeatLoad, HeatModel, HeatState
 from fem.mechanics import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
@@ -24,6 +31,7 @@ from fem.programme import Target
 from fem.state import MechanicalState
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 #: 1 W/(m^2 K) in N/(mm s K).
 W_PER_M2K = 1e-3
@@ -113,6 +121,10 @@ class AcceptedStep:
         Share of it that heats the rubber [-].
     capped : (m,) bool array
         Where the partition was capped.
+    self_friction : float
+        Friction work of the block on itself in the step [mJ/mm].
+    penetration : float
+        Largest penetration of the block into itself, relative to the local element size [-].
     """
 
     before: CoupledState
@@ -125,6 +137,8 @@ class AcceptedStep:
     power: FloatArray
     kappa: FloatArray
     capped: NDArray[np.bool_]
+    self_friction: float = 0.0
+    penetration: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -307,7 +321,11 @@ class CoupledModel:
         power = np.abs(contact.shear * contact.slip_velocity)
         kappa = self.laws.partition(contact.pressure)
         uncapped = self.laws.partition.uncapped(contact.pressure)
-        heat = self._heat(state, target, x.u, contact, kappa * power)
+        nodes, work = self._self_friction(problem, result.evaluation)
+        heat = self._heat(
+            state, target, x.u, contact, kappa * power,
+            extra_nodes=nodes, extra_power=work / target.dt,
+        )  # fmt: skip
         mechanics = MechanicalState(
             u=x.u, velocity=problem.velocity(x.u), p=x.p, status=x.status,
             self_shear=self._self_shear(problem, result.evaluation),
@@ -319,8 +337,25 @@ class CoupledModel:
         return AcceptedStep(
             before=state, after=after, target=target, evaluation=result.evaluation,
             problem=problem, iterations=iterations, lag_error=lag, power=power, kappa=kappa,
-            capped=uncapped > self.laws.partition.cap,
+            capped=uncapped > self.laws.partition.cap, self_friction=float(work.sum()),
+            penetration=self._penetration(problem, x.u),
         )  # fmt: skip
+
+    def _self_friction(
+        self, problem: StepProblem, evaluation: StepEvaluation
+    ) -> tuple[IntArray, FloatArray]:
+        """Nodes and friction work of self-contact [mJ/mm]; all of it becomes heat in the rubber."""
+        pairs, forces = problem.load.pairs, evaluation.pairs
+        if pairs is None or forces is None:
+            return np.empty(0, dtype=np.int64), np.empty(0)
+        return heat_sources(pairs, forces, dissipation(pairs, forces))
+
+    def _penetration(self, problem: StepProblem, u: FloatArray) -> float:
+        """Largest penetration relative to the local element size [-]."""
+        if problem.load.pairs is None:
+            return 0.0
+        x = self.mechanics.mesh.points + u
+        return penetration(problem.load.pairs, x, self.mechanics.boundary)
 
     def _self_shear(self, problem: StepProblem, evaluation: StepEvaluation) -> FloatArray | None:
         """Tangential forces of self-contact by boundary node."""
@@ -333,7 +368,7 @@ class CoupledModel:
 
     def _heat(
         self, state: CoupledState, target: Target, u: FloatArray, contact: RoadContact,
-        power: FloatArray,
+        power: FloatArray, *, extra_nodes: IntArray, extra_power: FloatArray,
     ) -> HeatState:  # fmt: skip
         active = contact.status.active
         h = self.laws.conductance.conductance(contact.pressure, np.abs(contact.slip_velocity))
@@ -341,6 +376,7 @@ class CoupledModel:
             dt=target.dt, sweep=target.sweep, displacement=u,
             contact_nodes=self.mechanics.candidates[active], power=power[active],
             conductance=(W_PER_M2K * h * contact.length)[active],
+            extra_nodes=extra_nodes, extra_power=extra_power,
         )  # fmt: skip
         return self.heat.advance(state.heat, load, state.position)
 

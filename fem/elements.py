@@ -6,9 +6,8 @@ unknown of its own, condensed on the element and updated with the *linearised* p
 the geometric stiffness then does not see the large spurious pressures of an intermediate iterate.
 
 All kernels run over all elements at once. With ``G_a`` the reference gradients of the shape
-functions, the material tangent is ``L^T M L`` of the row vectors ``F_i1 G_a1``, ``F_i2 G_a2``,
-``F_i1 G_a2 + F_i2 G_a1`` and ``(cof F) G_a``, because every energy depends on (I1, J) only and the
-viscous term on the Green-Lagrange strain.
+functions, the tangent is ``K_aibj = sum_q w A_imjn G_am G_bn`` with ``A = dP/dF``. The products
+``G_am G_bn`` never change, so the whole sum is one small matrix product per element.
 
 References
 ----------
@@ -27,7 +26,7 @@ from numpy.typing import NDArray
 from skfem import Basis, ElementQuad1, ElementVector
 
 from fem.mesh import BlockMesh
-from materials.hyperelastic import Hyperelastic
+from materials.hyperelastic import EnergyDerivatives, Hyperelastic
 from materials.plane_strain import cauchy_stress
 
 FloatArray = NDArray[np.float64]
@@ -107,6 +106,7 @@ class ElementForces:
     residual: FloatArray
     pressure_residual: FloatArray
     kinematics: Kinematics
+    derivatives: EnergyDerivatives
     area_gradient: FloatArray
     pressure: FloatArray
 
@@ -132,6 +132,7 @@ class Q1P0Elements:
         self.weights = np.ascontiguousarray(scalar.dx)
         self.G = np.ascontiguousarray(gradients.transpose(2, 3, 0, 1))  # (ne, q, a, I)
         self._G_flat = np.ascontiguousarray(gradients.transpose(2, 0, 3, 1)).reshape(-1, 4, 8)
+        self._GG = np.einsum("eqaI,eqbJ->eqIJab", self.G, self.G).reshape(-1, 16, 16)
         self.volume = self.weights.sum(axis=1)
         self.cells = mesh.cells
         self._X = mesh.points[mesh.cells]
@@ -185,74 +186,53 @@ class Q1P0Elements:
             residual=residual + dU_dJ[:, None] * b,
             pressure_residual=dU_dJ - p,
             kinematics=kin,
+            derivatives=d,
             area_gradient=b,
             pressure=p,
         )
 
     def tangent(self, forces: ElementForces, viscosity: Viscosity | None = None) -> FloatArray:
         """Element tangents with the condensed pressure, (ne, 8, 8) [N/mm^2]."""
-        kin, G, w = forces.kinematics, self.G, self.weights
-        d = self.model.derivatives(kin.I1, kin.J)
-        L, ML = self._material_rows(kin, d.W_11, d.W_1J, d.W_JJ, viscosity)
+        ne = len(self.cells)
         b = forces.area_gradient
-        ne = b.shape[0]
-        L = np.concatenate([L.reshape(ne, -1, 8), b[:, None, :]], axis=1)
-        scaled = b * (self.K_bulk / self.volume)[:, None]
-        ML = np.concatenate([ML.reshape(ne, -1, 8), scaled[:, None, :]], axis=1)
-        K = np.matmul(L.transpose(0, 2, 1), ML).reshape(ne, 4, 2, 4, 2)
-        # geometric part: G_a (2 W_1 I + S) G_b on the diagonal, W_J (G_a x G_b) off it
-        A11 = A22 = 2.0 * w * d.W_1
-        A12 = None
+        K = np.matmul((b * (self.K_bulk / self.volume)[:, None])[:, :, None], b[:, None, :])
+        blocks = np.matmul(self._stiffness(forces, viscosity), self._GG).reshape(ne, 3, 4, 4)
+        blocks[:, 1] += forces.pressure[:, None, None] * AREA_HESSIAN
+        parts = K.reshape(ne, 4, 2, 4, 2)
+        parts[:, :, 0, :, 0] += blocks[:, 0]
+        parts[:, :, 1, :, 1] += blocks[:, 2]
+        parts[:, :, 0, :, 1] += blocks[:, 1]
+        parts[:, :, 1, :, 0] += blocks[:, 1].transpose(0, 2, 1)
+        return K
+
+    def _stiffness(self, forces: ElementForces, viscosity: Viscosity | None) -> FloatArray:
+        """Weighted dP_im/dF_jn as (ne, 3, 16): rows ij = 11, 12, 22, columns (q, m, n)."""
+        kin, d, w = forces.kinematics, forces.derivatives, self.weights
+        F = ((kin.F11, kin.F12), (kin.F21, kin.F22))
+        cof = ((kin.F22, -kin.F21), (-kin.F12, kin.F11))
+        w_11, w_1J, w_JJ, w_J = 4.0 * w * d.W_11, 2.0 * w * d.W_1J, w * d.W_JJ, w * d.W_J
+        S = np.array([[1.0, 0.0], [0.0, 1.0]])[:, :, None, None] * (2.0 * w * d.W_1)
+        half = None
         if viscosity is not None:
             S11, S22, S12 = viscosity.stress(kin)
-            A11, A22, A12 = A11 + w * S11, A22 + w * S22, w * S12
-        AG = np.empty_like(G)
-        AG[..., 0] = A11[..., None] * G[..., 0]
-        AG[..., 1] = A22[..., None] * G[..., 1]
-        if A12 is not None:
-            AG[..., 0] += A12[..., None] * G[..., 1]
-            AG[..., 1] += A12[..., None] * G[..., 0]
-        direct = np.matmul(self._G_flat, AG.transpose(0, 1, 3, 2).reshape(ne, 8, 4))
-        c = (w * d.W_J)[..., None]
-        turned = np.stack([c * G[..., 1], -c * G[..., 0]], axis=2).reshape(ne, 8, 4)
-        cross = np.matmul(self._G_flat, turned)
-        cross += forces.pressure[:, None, None] * AREA_HESSIAN
-        K[:, :, 0, :, 0] += direct
-        K[:, :, 1, :, 1] += direct
-        K[:, :, 0, :, 1] += cross
-        K[:, :, 1, :, 0] -= cross
-        return K.reshape(ne, 8, 8)
-
-    def _material_rows(
-        self,
-        kin: Kinematics,
-        W_11: FloatArray,
-        W_1J: FloatArray,
-        W_JJ: FloatArray,
-        viscosity: Viscosity | None,
-    ) -> tuple[FloatArray, FloatArray]:
-        """Rows L (ne, q, m, 8) and M L of the material part; m = 2 elastic, + 3 viscous."""
-        G1, G2 = self.G[..., 0], self.G[..., 1]
-        F11, F12 = kin.F11[..., None], kin.F12[..., None]
-        F21, F22 = kin.F21[..., None], kin.F22[..., None]
-        m = 2 if viscosity is None else 5
-        L = np.empty((*kin.J.shape, m, 4, 2))
-        ML = np.empty_like(L)
-        L[..., 0, :, 0] = F11 * G1 + F12 * G2
-        L[..., 0, :, 1] = F21 * G1 + F22 * G2
-        L[..., 1, :, 0] = F22 * G1 - F21 * G2
-        L[..., 1, :, 1] = F11 * G2 - F12 * G1
-        w = self.weights
-        a, s, j = ((w * x)[..., None, None] for x in (4.0 * W_11, 2.0 * W_1J, W_JJ))
-        ML[..., 0, :, :] = a * L[..., 0, :, :] + s * L[..., 1, :, :]
-        ML[..., 1, :, :] = s * L[..., 0, :, :] + j * L[..., 1, :, :]
-        if viscosity is not None:
-            L[..., 2, :, 0], L[..., 2, :, 1] = F11 * G1, F21 * G1
-            L[..., 3, :, 0], L[..., 3, :, 1] = F12 * G2, F22 * G2
-            L[..., 4, :, 0], L[..., 4, :, 1] = F11 * G2 + F12 * G1, F21 * G2 + F22 * G1
-            rate = (viscosity.rate * w)[..., None, None, None] * VISCOUS_WEIGHTS
-            ML[..., 2:, :, :] = rate * L[..., 2:, :, :]
-        return L, ML
+            S += np.array([[S11, S12], [S12, S22]]) * w
+            half = 0.5 * viscosity.rate * w
+        A = np.empty((len(self.cells), 3, 4, 4))
+        for row, (i, j) in enumerate(((0, 0), (0, 1), (1, 1))):
+            left = [w_11 * F[i][m] + w_1J * cof[i][m] for m in (0, 1)]
+            right = [w_1J * F[i][m] + w_JJ * cof[i][m] for m in (0, 1)]
+            for m, n in ((0, 0), (0, 1), (1, 0), (1, 1)):
+                value = left[m] * F[j][n] + right[m] * cof[j][n]
+                if i == j:
+                    value += S[m, n]
+                elif m != n:
+                    value += w_J if m < n else -w_J
+                if half is not None:
+                    value += half * F[i][n] * F[j][m]
+                    if m == n:
+                        value += half * (F[i][0] * F[j][0] + F[i][1] * F[j][1])
+                A[:, row, :, 2 * m + n] = value
+        return A.reshape(-1, 3, 16)
 
     def pressure_increment(self, forces: ElementForces, du: FloatArray) -> FloatArray:
         """Change of the element pressures with `du` (n, 2) by the linearised pressure law."""
@@ -280,9 +260,6 @@ class Q1P0Elements:
         share = self.weights / self.volume[:, None]
         return np.asarray(np.sum(share * np.sqrt(half_sum + root), axis=1))
 
-
-#: S12 acts on 2 E12, and dE12 is half the third row.
-VISCOUS_WEIGHTS = np.array([1.0, 1.0, 0.5])[:, None, None]
 
 #: d2A/dx_a dy_b of the area of a quadrilateral: constant, since the area is bilinear in (x, y).
 AREA_HESSIAN = 0.5 * (np.roll(np.eye(4), 1, axis=1) - np.roll(np.eye(4), -1, axis=1))

@@ -21,11 +21,14 @@ from contact.self_contact import Boundary, PairForces, Pairs, pair_forces, pair_
 from fem.elements import ElementForces, Q1P0Elements, Viscosity
 from fem.linear_solver import LinearSolver, SuperLUSolver, fill_reducing_order
 from fem.mesh import BlockMesh
-from fem.sparse_pattern import SparsePattern
+from fem.sparse_pattern import SparsePattern, summed
 from fem.state import MechanicalState
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+
+#: Largest change of a deformation gradient in one Newton iteration [-].
+STRAIN_LIMIT = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,10 +191,10 @@ class BlockMechanics:
 
     def gather(self, nodal: FloatArray) -> FloatArray:
         """Sum nodal values (n, 2) into the equations, (size,)."""
-        return np.bincount(
+        return summed(
             self.equation.ravel()[self._numbered],
-            weights=nodal.ravel()[self._numbered],
-            minlength=self.pattern.size,
+            nodal.ravel()[self._numbered],
+            self.pattern.size,
         )
 
     def scatter(self, x: FloatArray) -> FloatArray:
@@ -263,9 +266,8 @@ class StepProblem:
         """Internal, viscous and inertial minus applied nodal forces, (n, 2) [N/mm]."""
         system, load = self.system, self.load
         n = len(u)
-        nodal = np.bincount(
-            system.elements.dofs.ravel(), elements.residual.ravel(), minlength=2 * n
-        ).reshape(n, 2)
+        nodal = summed(system.elements.dofs.ravel(), elements.residual.ravel(), 2 * n)
+        nodal = nodal.reshape(n, 2)
         acceleration = (self.velocity(u) - self.state.velocity) / load.dt
         nodal += system.mass[:, None] * acceleration
         nodal[:, 1] += load.force * system._top_load
@@ -389,6 +391,14 @@ class StepProblem:
         data[system._diagonal[rows[status.sticking, 0]]] = 1.0
         data[system._diagonal[rows[status.active, 1]]] = 1.0
         return data
+
+    def step_limit(self, x: Iterate, direction: Iterate) -> float:
+        """Step in which no deformation gradient changes by more than `STRAIN_LIMIT`."""
+        change = self.system.elements.kinematics(direction.u)
+        size = np.sqrt(
+            (change.F11 - 1.0) ** 2 + change.F12**2 + change.F21**2 + (change.F22 - 1.0) ** 2
+        ).max()
+        return float(min(1.0, STRAIN_LIMIT / size)) if size > 0.0 else 1.0
 
     def moved(
         self, x: Iterate, evaluation: StepEvaluation, direction: Iterate, alpha: float

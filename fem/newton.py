@@ -37,6 +37,10 @@ class Problem(Protocol[X, E]):
         """Newton direction at the iterate; raises `ArithmeticError` when there is none."""
         ...
 
+    def step_limit(self, x: X, direction: X) -> float:
+        """Longest sensible step (at most 1), e.g. so that no element deforms too much at once."""
+        ...
+
     def moved(self, x: X, evaluation: E, direction: X, alpha: float) -> X:
         """Iterate at ``x + alpha direction``."""
         ...
@@ -141,8 +145,8 @@ def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[
 def _line_search(
     problem: Problem[X, E], x: X, evaluation: E, direction: X, bound: float, halvings: int
 ) -> tuple[X, E] | None:
-    """First of alpha = 1, 1/2, ... whose merit is below the bound; None if there is none."""
-    alpha = 1.0
+    """First of the step limit, its half, ... whose merit is below the bound; None if none is."""
+    alpha = problem.step_limit(x, direction)
     for _ in range(halvings + 1):
         trial = problem.moved(x, evaluation, direction, alpha)
         trial_evaluation = problem.evaluate(trial)

@@ -13,7 +13,7 @@ INTERRUPTED = "interrupted"
 ADVICE = {
     Failure.ITERATIONS: (
         "a finer mesh at the leading edge, a smaller [solver] step_mm_max, or a larger "
-        "viscous_time_s often helps"
+        "viscous_distance_mm often helps"
     ),
     Failure.INADMISSIBLE: (
         "the rubber is strained beyond what its model or mesh can follow: check the pressure and "

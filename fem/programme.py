@@ -9,8 +9,9 @@ import numpy as np
 
 from fem.case import Case
 
-#: Duration of the pressing phase [s]: several Kelvin-Voigt relaxation times.
-PRESSING_TIME = 0.1
+#: Duration of the pressing phase [s] without viscosity, and with it in relaxation times.
+PRESSING_TIME = 0.05
+PRESSING_RELAXATIONS = 3.0
 #: Distance of constant acceleration at the start of sliding [mm].
 ACCELERATION_DISTANCE = 0.5
 
@@ -51,6 +52,14 @@ class Phase:
     slides: bool
 
 
+def relaxation_time(case: Case) -> float:
+    """Kelvin-Voigt relaxation time of the regularisation [s].
+
+    Stated as a sliding distance in the case, so that it acts alike at all velocities.
+    """
+    return case.solver.viscous_distance_mm / abs(case.loading.velocity_mm_per_s)
+
+
 def sliding_time(distance: float, speed: float) -> float:
     """Time since the start of sliding [s], constant acceleration up to `speed` [mm/s] at first.
 
@@ -73,9 +82,10 @@ def programme(case: Case) -> tuple[Phase, Phase]:
     force = loading.mean_pressure_N_per_mm2 * case.block.length_mm
     speed, sense = abs(loading.velocity_mm_per_s), float(np.sign(loading.velocity_mm_per_s))
     scale = solver.steps_scale
+    pressing_time = max(PRESSING_TIME, PRESSING_RELAXATIONS * relaxation_time(case))
 
     def pressing(start: float, stop: float) -> Target:
-        return Target(dt=PRESSING_TIME * (stop - start), sweep=0.0, force=force * stop)
+        return Target(dt=pressing_time * (stop - start), sweep=0.0, force=force * stop)
 
     def sliding(start: float, stop: float) -> Target:
         dt = sliding_time(stop, speed) - sliding_time(start, speed)

@@ -56,6 +56,7 @@ class Recorder:
         row |= energy_columns(audit, step.after)
         row |= {"friction_lag_error": step.lag_error}
         row |= {"min_J": float(step.evaluation.elements.kinematics.J.min())}
+        row |= {"self_contact_penetration": step.penetration}
         status = step.after.contact.status
         row |= {"sticking_nodes": int(status.sticking.sum())}
         row |= {"slipping_nodes": int(status.slipping.sum())}

@@ -16,14 +16,19 @@ from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState, 
 from fem.elements import Q1P0Elements
 from fem.heat import HeatModel
 from fem.mechanics import BlockMechanics
+from fem.mesh import BlockMesh
 from fem.model_parts import Progress, mesh_of
 from fem.outcome import INTERRUPTED, OK, Outcome, failed
-from fem.programme import Phase, programme
+from fem.programme import Phase, programme, relaxation_time
 from fem.recorder import Recorder
 from fem.results import Result
 from fem.rigid_run import simulate_rigid
 from fem.run_summary import largest, last_values, sliding_means
 from fem.step_control import StepController, landed
+
+#: Contact modulus of the block with itself over its bulk modulus: a pressure of a tenth of the
+#: bulk modulus then presses a node in by 1 % of the local element size.
+SELF_CONTACT_STIFFNESS = 10.0
 
 
 def coupled_model(case: Case) -> CoupledModel:
@@ -34,7 +39,7 @@ def coupled_model(case: Case) -> CoupledModel:
         mesh,
         Q1P0Elements(mesh, rubber, case.rubber.bulk_modulus),
         density=case.rubber.thermal.density if solver.inertia else 0.0,
-        viscosity=solver.viscous_time_s * rubber.initial_shear_modulus,
+        viscosity=relaxation_time(case) * rubber.initial_shear_modulus,
         top=case.loading.top,
         tolerance=solver.tolerance * force,
     )
@@ -50,7 +55,20 @@ def coupled_model(case: Case) -> CoupledModel:
         mean_pressure=case.loading.mean_pressure_N_per_mm2,
         friction_passes=solver.friction_passes,
         options=newton.NewtonOptions(iterations_max=solver.newton_iterations_max),
-        self_contact=SelfContact(mu=1.0, stiffness=10.0 * case.rubber.bulk_modulus, reach=0.5),
+        self_contact=self_contact_of(case, mesh),
+    )
+
+
+def self_contact_of(case: Case, mesh: BlockMesh) -> SelfContact | None:
+    """Contact of the block with itself; the search reaches over the longest boundary edge."""
+    if not case.solver.self_contact:
+        return None
+    edges = mesh.points[mesh.boundary_edges]
+    longest = float(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).max())
+    return SelfContact(
+        mu=case.friction.rubber_on_rubber_mu,
+        stiffness=SELF_CONTACT_STIFFNESS * case.rubber.bulk_modulus,
+        reach=longest,
     )
 
 

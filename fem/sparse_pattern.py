@@ -56,9 +56,7 @@ class SparsePattern:
 
     def sum(self, element_matrices: FloatArray) -> FloatArray:
         """Data array of the assembled matrix from (ne, k, k) element matrices."""
-        return np.bincount(self.slots, weights=element_matrices.ravel(), minlength=self.nnz + 1)[
-            : self.nnz
-        ]
+        return summed(self.slots, element_matrices.ravel(), self.nnz + 1)[: self.nnz]
 
     def matrix(self, data: FloatArray) -> csc_matrix:
         """The matrix with this pattern and the given data (shared, not copied)."""
@@ -83,3 +81,8 @@ class SparsePattern:
         owner = order[self.indices[slots]]
         by_row = np.argsort(owner, kind="stable")
         return slots[by_row], owner[by_row]
+
+
+def summed(places: IntArray, values: FloatArray, size: int) -> FloatArray:
+    """Sum `values` into an array of the given size at `places`."""
+    return np.bincount(places, weights=values, minlength=size).astype(np.float64, copy=False)
