@@ -47,6 +47,8 @@ class Problem:
     subset : callable, optional
         Gives the same problem on chosen observations (indices); large data sets are then thinned
         for the search over the starts, and only the last fit uses every point.
+    canonical : callable, optional
+        Puts parameters that may change places into the order that makes them unique.
     """
 
     names: tuple[str, ...]
@@ -58,6 +60,7 @@ class Problem:
     jacobian: Callable[[Array], Array] | None = None
     linear: bool = False
     subset: Callable[[NDArray[np.intp]], "Problem"] | None = None
+    canonical: Callable[[Array], Array] | None = None
 
     def residuals(self, theta: Array) -> Array:
         difference = self.predict(theta) - self.observed
@@ -101,6 +104,7 @@ class Problem:
             lower=self.lower[free],
             upper=self.upper[free],
             subset=None if subset is None else lambda rows: subset(rows).fixed(values),
+            canonical=None,  # a held parameter has its place
         )
 
 
@@ -271,6 +275,9 @@ def fit(
         raise ValueError("every parameter is fixed; expected at least one to fit")
     reduced = problem.fixed(fixed)
     best = minimise(reduced, np.atleast_2d(starts)[:, free], loss=loss, noise=noise)
+    if reduced.canonical is not None:
+        best.x = reduced.canonical(best.x)
+        best.fun = reduced.residuals(best.x)
     return _result(reduced, best, fixed, problem.names, loss)
 
 
@@ -453,6 +460,7 @@ def uncertainty(
             warnings.append(f"{problem.names[free[i]]} is not determined by these data (singular)")
             covariance[free[i], free[i]] = np.inf
     warnings += _correlation_warnings(problem.names, covariance)
+    warnings += _curvature_warnings(problem, theta, residuals, covariance)
     return covariance, np.sqrt(np.diag(covariance)), tuple(warnings)
 
 
@@ -485,6 +493,60 @@ def _correlation_warnings(names: tuple[str, ...], covariance: Array) -> list[str
         for j in range(i + 1, len(names))
         if np.isfinite(correlation[i, j]) and abs(correlation[i, j]) > CORRELATION_LIMIT
     ]
+
+
+def _curvature_warnings(
+    problem: Problem, theta: Array, residuals: Array, covariance: Array
+) -> list[str]:
+    """Name the parameters whose standard error a straight tangent does not justify.
+
+    Two standard errors from the minimum, with the others fitted again, the sum of squares of a
+    linear problem is larger by 4 s^2. Where the real one differs from that by more than 40 %,
+    intervals from the covariance are not to be trusted.
+    """
+    variance = np.diag(covariance)
+    known = np.flatnonzero(np.isfinite(variance) & (variance > 0.0))
+    least = float(residuals @ residuals)
+    s2 = least / max(residuals.size - known.size, 1)
+    exact = least <= 1e-20 * float(np.sum(problem.observed**2))
+    if problem.linear or exact or not known.size:
+        return []
+    curved = []
+    for k in known:
+        step = 2.0 * np.nan_to_num(covariance[:, k], posinf=0.0) / np.sqrt(variance[k])
+        growth = [
+            (_refitted(problem, int(k), theta + sign * step) - least) / (4.0 * s2)
+            for sign in (1.0, -1.0)
+        ]
+        if not 0.6 <= min(growth) <= max(growth) <= 1.4:
+            curved.append(problem.names[k])
+    if not curved:
+        return []
+    return [
+        f"the standard error of {', '.join(curved)} is that of a tangent that does not hold over "
+        "two of them: use profile or bootstrap intervals"
+    ]
+
+
+def _refitted(problem: Problem, k: int, theta: Array) -> float:
+    """Sum of squares with the k-th parameter held, the others after a few Gauss-Newton steps."""
+    if np.any(theta < problem.lower) or np.any(theta > problem.upper):
+        return float("inf")
+    others = np.arange(theta.size) != k
+    with np.errstate(all="ignore"):
+        r = problem.residuals(theta)
+        for _ in range(4 if others.any() else 0):
+            J = problem.slopes(theta)[:, others]
+            if not (np.all(np.isfinite(J)) and np.all(np.isfinite(r))):
+                return float("inf")
+            trial = theta.copy()
+            trial[others] -= np.linalg.lstsq(J, r, rcond=None)[0]
+            trial = np.clip(trial, problem.lower, problem.upper)
+            moved = problem.residuals(trial)
+            if not float(moved @ moved) < float(r @ r):
+                break
+            theta, r = trial, moved
+    return float(r @ r)
 
 
 def _profile_end(

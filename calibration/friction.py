@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 
 COLUMNS = ("p_N_per_mm2", "v_mm_per_s", "mu")
 HUEMER_SCALE = 0.9203  # Table 2's a, the normalisation of the fit
+_SCALED = [0, 1, 4, 5, 6]  # places of alpha, beta, a, b, c
 _LN10 = float(np.log(10.0))
 
 
@@ -40,7 +41,10 @@ class _Law(ABC):
     names: tuple[str, ...]
     lower: tuple[float, ...]
     upper: tuple[float, ...]
-    held: dict[str, float] = {}  # noqa: RUF012
+
+    def with_scale(self, fixed: dict[str, float]) -> dict[str, float]:
+        """Parameters to hold so that the others are unique."""
+        return fixed
 
     @abstractmethod
     def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
@@ -82,7 +86,10 @@ class _Huemer(_Law):
     names = ("alpha", "beta", "n", "inverse_m", "a", "b", "c")
     lower = (0.0, -np.inf, -1.0, 0.01, 1e-9, -np.inf, 0.0)
     upper = (np.inf, np.inf, 3.0, 2.0, np.inf, np.inf, np.inf)
-    held = {"a": HUEMER_SCALE}  # noqa: RUF012
+
+    def with_scale(self, fixed: dict[str, float]) -> dict[str, float]:
+        scaled = any(fixed.get(name) for name in ("alpha", "beta", "a", "b", "c"))
+        return fixed if scaled else {"a": HUEMER_SCALE, **fixed}
 
     def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
         alpha, beta, n, inverse_m, a, b, c = theta
@@ -188,7 +195,8 @@ def fit_friction(
     T_ref_C : float
         Reference temperature of the shift [deg C].
     fixed : mapping, optional
-        Parameters to hold. Without it Huemer's ``a`` is held at 0.9203 (the redundancy of scale).
+        Parameters to hold. Huemer's ``a`` is held at 0.9203 besides (the redundancy of scale),
+        unless one of those that share the scale is given.
     starts : int
         Number of starting points.
     loss, noise
@@ -202,15 +210,14 @@ def fit_friction(
     if law not in LAWS:
         raise ValueError(f"law is {law!r}; expected one of {', '.join(LAWS)}")
     data, form = read_friction(table), LAWS[law]
-    held = dict(form.held if fixed is None else fixed)
-    if law == "huemer":
-        held = {**({} if set(held) & set("abc") else form.held), **held}
+    held = form.with_scale(dict(fixed or {}))
     _require_data(data, form, law, wlf, held)
     fit_shift = wlf == "fit"
     problem = _problem(form, data, wlf, T_ref_C)
-    result = fit(
-        problem, _starts(form, data, wlf, T_ref_C, starts), fixed=held, loss=loss, noise=noise
-    )
+    begin = _starts(form, data, wlf, T_ref_C, starts)
+    if law == "huemer":
+        begin[:, _SCALED] *= held.get("a", HUEMER_SCALE) / HUEMER_SCALE
+    result = fit(problem, begin, fixed=held, loss=loss, noise=noise)
     shift = _wlf_of(result.values) if fit_shift else wlf
     return _completed(result, law, form, data, shift if isinstance(shift, WLF) else None, T_ref_C)
 
@@ -325,7 +332,7 @@ def _completed(
         "data_sha256": data.table.sha256,
         "pressure_window_N_per_mm2": [float(data.p.min()), float(data.p.max())],
         "velocity_window_mm_per_s": [float(speed.min()), float(speed.max())],
-        "normalisation": f"a = {own['a']:g}" if law == "huemer" else "none needed",
+        "normalisation": _normalisation(result) if law == "huemer" else "none needed",
         "version": version(),
     }
     return replace(
@@ -335,6 +342,11 @@ def _completed(
         section={"friction": section},
         warnings=(*result.warnings, *_data_warnings(data, wlf)),
     )
+
+
+def _normalisation(result: FitResult) -> str:
+    held = {name: value for name, value in result.fixed.items() if name not in ("n", "inverse_m")}
+    return ", ".join(f"{name} = {value:g}" for name, value in held.items())
 
 
 def _floors(data: FrictionData, speed: Array) -> dict[str, float]:

@@ -181,6 +181,7 @@ def stress_problem(
             lower=lower,
             upper=upper,
             linear=law.linear,
+            canonical=law.ordered,
         )
 
     return replace(subset(np.arange(data.stress.size)), subset=subset)
@@ -404,7 +405,7 @@ def _weights(data: StressData, kind: Weighting) -> Array | None:
 def _completed(
     result: FitResult, model: str, law: StressModel, data: StressData, weights: Weighting
 ) -> FitResult:
-    values = law.ordered(result.values)
+    values = result.values
     try:
         energy = law.build(values)
     except ValueError as error:
@@ -413,7 +414,6 @@ def _completed(
             found=f"data whose best {model} fit is no admissible energy ({error})",
             expected="tests of a rubber, or another model",
         ) from None
-    result = _reordered(result, law, values)
     stability = check_stability(energy, data.window)
     metadata = {
         "kind": "hyperelastic",
@@ -429,24 +429,8 @@ def _completed(
     rubber = {"model": model, **{key: values[name] for name, key in keys.items()}}
     return replace(
         result,
-        values=values,
         model=energy,
         metadata=metadata,
         section={"rubber": rubber} if keys else {},
         warnings=(*result.warnings, *stability.warnings),
-    )
-
-
-def _reordered(result: FitResult, law: StressModel, values: dict[str, float]) -> FitResult:
-    """Carry standard errors and covariance along when terms have changed places."""
-    if values == result.values or result.fixed:
-        return result
-    order = [list(result.values.values()).index(values[name]) for name in result.names]
-    errors = np.array([result.stderr[name] for name in result.names])[order]
-    problem = result.problem
-    return replace(
-        result,
-        stderr=dict(zip(result.names, map(float, errors), strict=True)),
-        covariance=result.covariance[np.ix_(order, order)],
-        problem=problem,
     )

@@ -98,9 +98,9 @@ class StressModel(ABC):
     def build(self, values: dict[str, float]) -> Any:
         """Model object with the parameters."""
 
-    def ordered(self, values: dict[str, float]) -> dict[str, float]:
-        """Parameters in the order that makes them unique."""
-        return values
+    def ordered(self, theta: Array) -> Array:
+        """Parameters (k,) with terms that may change places in the order that makes them unique."""
+        return theta
 
     def admissible(self, values: dict[str, float]) -> bool:
         """Whether the parameters make an energy; where bounds of each alone cannot say so."""
@@ -311,13 +311,8 @@ class OgdenStress(StressModel):
             points.append(np.stack([mu, alpha], axis=1).ravel())
         return np.array(points)
 
-    def ordered(self, values: dict[str, float]) -> dict[str, float]:
-        pairs = sorted(
-            ((values[f"mu{i}"], values[f"alpha{i}"]) for i in range(1, self.terms + 1)),
-            key=lambda pair: -pair[1],
-        )
-        flat = [number for pair in pairs for number in pair]
-        return dict(zip(self.names, flat, strict=True))
+    def ordered(self, theta: Array) -> Array:
+        return theta.reshape(self.terms, 2)[np.argsort(-theta[1::2])].ravel()
 
     def build(self, values: dict[str, float]) -> Ogden:
         indices = range(1, self.terms + 1)

@@ -90,6 +90,44 @@ def test_profile_of_a_curved_problem_is_lopsided_and_holds_the_truth():
     assert high - result.values["rate"] > 1.05 * (result.values["rate"] - low)
 
 
+def test_standard_errors_that_a_tangent_does_not_justify_are_reported():
+    def fitted(sigma):
+        return fit(decay(0.3 * np.exp(-0.7 * X) + noise(sigma)), np.array([[1.0, 0.5]]))
+
+    assert not [w for w in fitted(0.005).warnings if "tangent" in w]
+    poor = fitted(0.1)
+    assert [w for w in poor.warnings if "rate" in w and "tangent" in w]
+    low, high = poor.profile("rate")
+    wald = poor.interval()["rate"]
+    assert high - poor.values["rate"] > 1.2 * (wald[1] - poor.values["rate"])
+    assert low > wald[0]
+
+
+def test_one_parameter_alone_is_fitted_and_judged():
+    problem = decay(3.0 * np.exp(-0.7 * X) + noise(0.02))
+    result = fit(problem, np.array([[1.0, 0.5]]), fixed={"height": 3.0})
+    assert result.values["rate"] == pytest.approx(0.7, abs=4 * result.stderr["rate"])
+    assert result.warnings == ()
+
+
+def test_terms_that_may_change_places_come_out_in_one_order():
+    def sum_of_decays(t):
+        return t[0] * np.exp(-t[1] * X) + t[2] * np.exp(-t[3] * X)
+
+    problem = Problem(
+        names=("height1", "rate1", "height2", "rate2"),
+        predict=sum_of_decays,
+        observed=sum_of_decays([1.0, 0.3, 2.0, 3.0]) + noise(1e-4),
+        lower=np.zeros(4),
+        upper=np.full(4, 10.0),
+        canonical=lambda t: t.reshape(2, 2)[np.argsort(-t[1::2])].ravel(),
+    )
+    for start in ([1.0, 0.1, 1.0, 5.0], [1.0, 5.0, 1.0, 0.1]):
+        result = fit(problem, np.array([start]))
+        assert result.theta == pytest.approx([2.0, 3.0, 1.0, 0.3], rel=1e-2)
+        assert result.stderr["rate1"] > result.stderr["rate2"]
+
+
 def test_singular_directions_are_named_and_have_no_finite_error():
     problem = Problem(
         names=("a", "b", "c"),

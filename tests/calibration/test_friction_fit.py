@@ -49,6 +49,19 @@ def test_another_scale_gives_the_same_curve():
     assert second.values["beta"] == pytest.approx(first.values["beta"] * 2.0 / 0.9203, rel=1e-4)
 
 
+@pytest.mark.parametrize("a", [1e-3, 50.0])
+def test_a_scale_far_from_the_papers_is_no_harder(a):
+    result = fit_friction(synthetic_friction(HuemerFriction(), noise=0.0), fixed={"a": a})
+    assert result.values["c"] == pytest.approx(0.9677 * a / 0.9203, rel=1e-6)
+    assert result.metadata["normalisation"] == f"a = {a:g}"
+
+
+def test_holding_alpha_leaves_a_free():
+    result = fit_friction(synthetic_friction(HuemerFriction(), noise=0.0), fixed={"alpha": 0.1399})
+    assert "a" in result.names
+    assert result.values == pytest.approx(TABLE_2["huemer"], rel=1e-6)
+
+
 def test_scale_may_be_held_through_another_constant():
     table = synthetic_friction(HuemerFriction(), noise=0.0)
     result = fit_friction(table, "huemer", fixed={"c": 0.9677})
