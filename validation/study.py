@@ -119,7 +119,11 @@ def holds(folder: Path, case: Case) -> bool:
     """Whether a folder holds the finished run of a case, with fields."""
     if not (folder / SUMMARY_JSON).is_file() or not any(folder.glob("block_*.vtu")):
         return False
-    found = Case.from_toml(folder / "case.toml")
+    try:
+        found = Case.from_toml(folder / "case.toml")
+    except CaseError:
+        # Written by a version with other keys, or damaged: it has to be run again.
+        return False
     return found == case.with_overrides(
         {f"output.{key}": value for key, value in found.to_dict()["output"].items()}
     )

@@ -8,7 +8,7 @@ from fem.case_errors import CaseError
 from tests.made_up_result import made_up_result
 from validation import study
 from validation.introductory import introductory_case
-from validation.study import STUDIES, read_study, study_runs, summary_table
+from validation.study import STUDIES, holds, read_study, study_runs, summary_table
 
 BASE = """
 [loading]
@@ -104,6 +104,17 @@ def test_finished_runs_are_read_and_changed_ones_simulated_again(
     case_file.write_text(case_file.read_text().replace("height_mm = 8.0", "height_mm = 9.0"))
     study_runs(path, tmp_path / "out")
     assert simulated == [7.0, 50.0, 50.0]
+
+
+def test_a_run_of_a_version_with_other_keys_is_not_taken_for_this_case(tmp_path):
+    result = made_up_result()
+    result.write(tmp_path)
+    assert holds(tmp_path, result.case)
+    path = tmp_path / "case.toml"
+    path.write_text(path.read_text().replace("height_mm", "tallness_mm"))
+    assert not holds(tmp_path, result.case)
+    path.unlink()
+    assert not holds(tmp_path, result.case)
 
 
 @pytest.mark.parametrize("name, count", [("compounds", 6), ("velocities", 6), ("pressures", 36)])
