@@ -1,0 +1,232 @@
+"""The coupled run through `simulate`: balance, mirror image, records, and how a run ends."""
+
+import numpy as np
+import pytest
+
+from fem import Case, simulate
+from fem.columns import HISTORY, SUMMARY, SURFACE
+from fem.model_parts import mesh_of
+from fem.results import Result
+
+COULOMB = {"law": "coulomb", "mu": 0.5, "wlf": False}
+HUEMER = {"law": "huemer"}
+
+
+def case_of(friction=COULOMB, *, velocity=300.0, distance=2.0, **tables):
+    loading = {
+        "mean_pressure_N_per_mm2": 0.25,
+        "velocity_mm_per_s": velocity,
+        "distance_mm": distance,
+    } | tables.pop("loading", {})
+    tables = {"block": {"mesh": "coarse"}, "output": {"snapshots": 2}} | tables
+    return Case.from_dict({"loading": loading, "friction": friction, **tables})
+
+
+@pytest.fixture(scope="module")
+def coulomb():
+    return simulate(case_of())
+
+
+@pytest.fixture(scope="module")
+def huemer():
+    return simulate(case_of(HUEMER, distance=1.0))
+
+
+@pytest.fixture(params=["coulomb", "huemer"])
+def run(request):
+    return request.getfixturevalue(request.param)
+
+
+# ------------------------------------------------------------------------------- balance
+
+
+def test_a_short_run_finishes_with_all_tables(run):
+    assert run.summary["status"] == "ok"
+    assert list(run.history.columns[: len(HISTORY)]) == list(HISTORY)
+    assert list(run.surface.columns[: len(SURFACE)]) == list(SURFACE)
+    assert list(run.summary)[: len(SUMMARY)] == list(SUMMARY)
+    assert not run.history.isna().any(axis=None)
+    end = run.case.loading.distance_mm
+    assert run.history["sliding_distance_mm"].iloc[-1] == end
+    assert run.snapshots[-1].sliding_distance_mm == end
+
+
+def test_energy_is_balanced(run):
+    assert run.summary["energy_error"] < 0.01
+
+
+def test_heat_is_balanced(run):
+    assert run.summary["heat_error"] < 1e-9
+    last = run.history.iloc[-1]
+    found = sum(
+        last[f"{name}_mJ_per_mm"] for name in ("heat_in_rubber", "heat_in_road", "radiated")
+    )
+    assert found == pytest.approx(last["frictional_heat_mJ_per_mm"], rel=1e-9)
+
+
+def test_the_energy_columns_add_up_to_the_stated_error(run):
+    last = run.history.iloc[-1]
+    found = (
+        last["strain_energy_mJ_per_mm"]
+        + last["friction_dissipation_mJ_per_mm"]
+        + last["viscous_dissipation_mJ_per_mm"]
+        + last["kinetic_energy_mJ_per_mm"]
+    )
+    work = last["work_in_mJ_per_mm"]
+    assert abs(work - found) / work == pytest.approx(run.summary["energy_error"], abs=2e-3)
+
+
+def test_the_work_is_that_of_the_forces_in_the_history(run):
+    """Trapezoids of the friction force over the sweep and of the normal force over the platen."""
+    history = run.history
+    F_T, F_N = history["friction_force_N_per_mm"], history["normal_force_N_per_mm"]
+    s, w = history["sliding_distance_mm"], history["platen_displacement_mm"]
+    pressing = 0.5 * F_N.iloc[0] * w.iloc[0]
+    work = pressing + np.trapezoid(F_T, s) + np.trapezoid(F_N, w)
+    assert history["work_in_mJ_per_mm"].iloc[-1] == pytest.approx(work, rel=0.01)
+
+
+def test_the_normal_force_is_five_newtons_per_millimetre(run):
+    assert run.history["normal_force_N_per_mm"].iloc[-1] == pytest.approx(5.0, rel=1e-3)
+    assert run.history["normal_force_N_per_mm"].iloc[3] == pytest.approx(5.0, rel=1e-3)
+
+
+def test_friction_in_steady_slip_is_mu_times_the_normal_force(coulomb):
+    steady = coulomb.history[coulomb.history["sliding_distance_mm"] > 0.5]
+    np.testing.assert_allclose(steady["friction_coefficient"], 0.5, rtol=1e-6)
+
+
+def test_the_shear_of_slipping_nodes_is_mu_p_of_the_law(run):
+    """The coefficient is lagged by a pass; its share of the force is the stated lag error."""
+    surface, lag = run.surface, run.history["friction_lag_error"].iloc[-1]
+    surface = surface[(surface["status"] == "slip") & (surface["pressure_N_per_mm2"] > 0.0)]
+    p, v, T = (surface[c] for c in ("pressure_N_per_mm2", "slip_velocity_mm_per_s", "T_C"))
+    mu = run.case.friction.law_object().coefficient(p, v, T)
+    shear = np.abs(surface["shear_N_per_mm2"])
+    weight = np.gradient(surface["X_mm"])
+    difference = np.sum(weight * np.abs(shear - mu * p)) / np.sum(weight * shear)
+    assert difference < 1.5 * lag + 0.01
+    assert (surface["shear_N_per_mm2"] * v <= 0.0).all()
+
+
+def test_history_columns_are_consistent_with_each_other(run):
+    history = run.history[run.history["sliding_distance_mm"] > 0.0]
+    np.testing.assert_allclose(
+        history["friction_coefficient"],
+        history["friction_force_N_per_mm"] / history["normal_force_N_per_mm"],
+        rtol=1e-12,
+    )
+    np.testing.assert_allclose(
+        history["mean_contact_pressure_N_per_mm2"] * history["contact_length_mm"],
+        history["normal_force_N_per_mm"],
+        rtol=1e-12,
+    )
+    assert (np.diff(history["time_s"]) > 0.0).all()
+    assert history["velocity_mm_per_s"].iloc[-1] == pytest.approx(300.0, rel=1e-9)
+
+
+# --------------------------------------------------------------------------- invariance
+
+
+@pytest.mark.parametrize("law", ["coulomb", "huemer"])
+def test_sliding_to_the_left_is_the_mirror_image(law, request):
+    right = request.getfixturevalue(law)
+    left = simulate(right.case.with_overrides({"loading.velocity_mm_per_s": -300.0}))
+    assert len(left.history) == len(right.history)
+    for column in right.history.columns:
+        sign = -1.0 if column == "velocity_mm_per_s" else 1.0
+        np.testing.assert_allclose(
+            left.history[column], sign * right.history[column], rtol=1e-8, atol=1e-8, err_msg=column
+        )
+    length = right.case.block.length_mm
+    for column in ("X_mm", "y_mm", "pressure_N_per_mm2", "T_C"):
+        np.testing.assert_allclose(
+            left.surface[column], right.surface[column], rtol=0.0, atol=1e-8, err_msg=column
+        )
+    np.testing.assert_allclose(left.surface["x_mm"], length - right.surface["x_mm"], atol=1e-8)
+    for column in ("shear_N_per_mm2", "slip_velocity_mm_per_s"):
+        np.testing.assert_allclose(
+            left.surface[column], -right.surface[column], rtol=1e-8, atol=1e-8, err_msg=column
+        )
+    assert (left.surface["status"] == right.surface["status"]).all()
+    one, other = left.snapshots[-1], right.snapshots[-1]
+    # the meshes are numbered alike, column by column from the trailing side
+    np.testing.assert_allclose(
+        one.displacement, other.displacement * [-1.0, 1.0], rtol=0.0, atol=1e-8
+    )
+    np.testing.assert_allclose(one.temperature, other.temperature, rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(
+        one.cauchy_stress, other.cauchy_stress * [1.0, 1.0, 1.0, -1.0], rtol=0.0, atol=1e-7
+    )
+
+
+def test_the_same_case_gives_the_same_result(coulomb):
+    again = simulate(case_of())
+    np.testing.assert_array_equal(again.history.to_numpy(), coulomb.history.to_numpy())
+
+
+# -------------------------------------------------------------------------------- physics
+
+
+def test_sliding_heats_the_bottom_and_more_so_the_longer_it_lasts(coulomb):
+    history = coulomb.history[coulomb.history["sliding_distance_mm"] > 0.0]
+    assert (np.diff(history["A_T_K_mm"]) > 0.0).all()
+    assert coulomb.summary["T_max_C"] > 20.5
+
+
+def test_the_leading_side_carries_more_than_the_trailing_one(coulomb):
+    """The friction couple presses the leading half down and lifts the trailing edge."""
+    surface = coulomb.surface
+    front = surface["X_mm"] > 10.0
+    dx = np.gradient(surface["X_mm"])
+    load = surface["pressure_N_per_mm2"] * dx
+    assert load[front].sum() > 1.1 * load[~front].sum()
+
+
+def test_a_free_top_carries_the_same_load():
+    result = simulate(case_of(loading={"top": "pressure"}, distance=1.0))
+    assert result.summary["status"] == "ok"
+    assert result.history["normal_force_N_per_mm"].iloc[-1] == pytest.approx(5.0, rel=1e-3)
+
+
+# ------------------------------------------------------------------------- how it ends
+
+
+def test_progress_is_reported_after_each_accepted_step():
+    seen = []
+    result = simulate(case_of(distance=0.2), progress=seen.append)
+    assert len(seen) == result.summary["steps"]
+    assert seen[-1].sliding_distance_mm == 0.2
+
+
+def test_an_interrupted_run_keeps_what_was_accepted(tmp_path):
+    seen = []
+
+    def progress(report):
+        seen.append(report)
+        if len(seen) == 6:
+            raise KeyboardInterrupt
+
+    result = simulate(case_of(), progress=progress)
+    assert result.summary["status"] == "interrupted"
+    assert len(result.history) == 6
+    result.write(tmp_path / "run")
+    assert len(Result.read(tmp_path / "run").history) == 6
+
+
+def test_a_run_that_does_not_converge_says_why_and_keeps_its_steps():
+    """Four iterations per step and no small steps are too few for the start of sliding."""
+    case = case_of(solver={"newton_iterations_max": 4, "step_mm_min": 1e-2, "tolerance": 1e-10})
+    result = simulate(case)
+    assert result.summary["status"] == "not converged"
+    assert result.summary["reason"]
+    assert result.summary["advice"]
+    assert result.summary["rejected_steps"] > 0
+
+
+def test_the_simulation_uses_the_mesh_of_the_case():
+    spec = {"cells_x": 24, "cells_y": 10, "smallest_x_mm": 0.4, "smallest_y_mm": 0.2}
+    mesh = mesh_of(case_of(block={"mesh": spec}))
+    assert len(mesh.cells) == 240
+    assert np.diff(mesh.points[mesh.bottom, 0]).min() == pytest.approx(0.4)
+    assert np.diff(mesh.points[mesh.front, 1]).min() == pytest.approx(0.2)
