@@ -1,0 +1,1 @@
+"""Study files of the paper's figures and tables."""
