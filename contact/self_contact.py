@@ -36,6 +36,10 @@ NEIGHBOURS = 2
 BEHIND = 0.05
 #: Projections count on a segment extended by this share on both sides.
 OVERHANG = 0.02
+#: A closed pair is held until its projection leaves the segment by this share.
+HOLD = 0.1
+#: Penetration that may go unseen until the next step, relative to the local element size.
+UNSEEN = 0.005
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,10 +103,6 @@ class Pairs:
     shear_n: FloatArray
     mu: float
     orientation: int
-
-    def same_as(self, other: Pairs) -> bool:
-        """Whether the same nodes meet the same segments."""
-        return np.array_equal(self.nodes, other.nodes)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,8 +175,7 @@ def _shapes(xi: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def pair_forces(pairs: Pairs, x: FloatArray) -> PairForces:
     """Forces of the pairs at current coordinates `x` (n, 2) [mm]."""
-    s, a, b = (x[pairs.nodes[:, i]] for i in range(3))
-    geometry = segment_geometry(s, a, b, pairs.orientation)
+    geometry = _geometry(pairs, x)
     relative, edge = _shapes(geometry.xi)
     grad_gap = _spread(geometry.n, relative)
     ratio = (geometry.gap / geometry.L)[:, None]
@@ -276,8 +275,9 @@ def find_pairs(
     Returns
     -------
     Pairs
-        At most one segment a node: of those with opposing normals, a projection inside, and in
-        front of which the node was, the nearest.
+        Of the segments with opposing normals, a projection inside, and in front of which the node
+        was: the nearest to each node, and those it touches. The nearest carries the tangential
+        force of the accepted state.
     """
     place, segment = _near(boundary, x, reach)
     chain, n_n = x[boundary.nodes], x_n[boundary.nodes]
@@ -295,7 +295,11 @@ def find_pairs(
     )
     kept = np.flatnonzero(kept)
     kept = kept[np.lexsort((np.abs(now.gap[kept]), place[kept]))]
-    kept = kept[np.unique(place[kept], return_index=True)[1]]
+    nearest = np.zeros(kept.size, dtype=bool)
+    nearest[np.unique(place[kept], return_index=True)[1]] = True
+    # In a crease a node touches the segments on both sides of it.
+    chosen = nearest | ((now.gap[kept] < 0.0) & (now.gap[kept] > -BEHIND * size[kept]))
+    kept, nearest = kept[chosen], nearest[chosen]
     place, segment = place[kept], segment[kept]
     return Pairs(
         place=place,
@@ -305,7 +309,7 @@ def find_pairs(
         xi_n=then.xi[kept],
         L_n=then.L[kept],
         stiffness=stiffness * boundary.length[place] / size[kept],
-        shear_n=shear_n[place],
+        shear_n=np.where(nearest, shear_n[place], 0.0),
         mu=mu,
         orientation=boundary.orientation,
     )
@@ -333,17 +337,46 @@ def node_normals(chain: FloatArray, orientation: int) -> FloatArray:
     return np.asarray(total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None])
 
 
-def touching(pairs: Pairs, x: FloatArray) -> IntArray:
-    """Nodes s, a, b of the pairs that are closed at coordinates `x`, (k', 3)."""
+def followed(pairs: Pairs, found: Pairs, x: FloatArray, boundary: Boundary) -> Pairs:
+    """Pairs to go on with after a solution at coordinates `x`; `pairs` itself if they still hold.
+
+    Closed pairs whose projection has left the segment are dropped, and pairs of `found` that have
+    penetrated by more than `UNSEEN` of the local size are added. Pairs are otherwise kept, so
+    that a node at a kink does not change between two segments for ever.
+    """
+    used = _geometry(pairs, x)
+    left = (used.gap < 0.0) & (np.abs(used.xi - 0.5) > 0.5 + HOLD)
+    depth = -_geometry(found, x).gap / boundary.size[found.place]
+    known = {tuple(row) for row in pairs.nodes.tolist()}
+    new = np.array([tuple(row) not in known for row in found.nodes.tolist()], dtype=bool)
+    missed = (depth > UNSEEN) & new
+    if not left.any() and not missed.any():
+        return pairs
+    return _joined(pairs, ~left, found, missed)
+
+
+def _joined(a: Pairs, in_a: NDArray[np.bool_], b: Pairs, in_b: NDArray[np.bool_]) -> Pairs:
+    """Chosen pairs of two sets."""
+
+    def both(name: str) -> FloatArray:
+        return np.concatenate([getattr(a, name)[in_a], getattr(b, name)[in_b]])
+
+    return Pairs(
+        place=np.concatenate([a.place[in_a], b.place[in_b]]),
+        nodes=np.concatenate([a.nodes[in_a], b.nodes[in_b]]),
+        xi_n=both("xi_n"), L_n=both("L_n"), stiffness=both("stiffness"), shear_n=both("shear_n"),
+        mu=a.mu, orientation=a.orientation,
+    )  # fmt: skip
+
+
+def _geometry(pairs: Pairs, x: FloatArray) -> SegmentGeometry:
     s, a, b = (x[pairs.nodes[:, i]] for i in range(3))
-    gap = segment_geometry(s, a, b, pairs.orientation).gap
-    return np.asarray(pairs.nodes[gap < 0.0])
+    return segment_geometry(s, a, b, pairs.orientation)
 
 
 def penetration(pairs: Pairs, x: FloatArray, boundary: Boundary) -> float:
     """Largest penetration of the pairs relative to the local element size [-]."""
     if pairs.place.size == 0:
         return 0.0
-    s, a, b = (x[pairs.nodes[:, i]] for i in range(3))
-    gap = segment_geometry(s, a, b, pairs.orientation).gap
+    gap = _geometry(pairs, x).gap
     return float(np.max(np.maximum(-gap, 0.0) / boundary.size[pairs.place], initial=0.0))

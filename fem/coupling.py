@@ -20,9 +20,9 @@ from contact.self_contact import (
     Pairs,
     dissipation,
     find_pairs,
+    followed,
     heat_sources,
     penetration,
-    touching,
 )
 from fem import newton
 from fem.heat import HeatLoad, HeatModel, HeatState
@@ -251,13 +251,13 @@ class CoupledModel:
             mu_next = self._coefficient(contact, state.heat)
             lag = lag_error(contact, mu_next)
             mu_settled = lag < LAG_TOLERANCE or number >= self.friction_passes
-            found, met = self._met(state, pairs, result.x.u)
-            if mu_settled and met:
+            next_pairs = self._followed(state, pairs, result.x.u)
+            if mu_settled and next_pairs is pairs:
                 return self._accept(
                     state, target, problem, result, contact, mu_next,
                     iterations=iterations, lag=lag,
                 )  # fmt: skip
-            mu, pairs, start = mu if mu_settled else mu_next, found, result.x
+            mu, pairs, start = mu if mu_settled else mu_next, next_pairs, result.x
         return RejectedStep(
             failure=newton.Failure.ITERATIONS, detail="self-contact keeps changing its partners",
             iterations=iterations,
@@ -276,15 +276,12 @@ class CoupledModel:
             shear_n=np.zeros(mechanics.boundary.nodes.size) if shear is None else shear,
         )  # fmt: skip
 
-    def _met(
-        self, state: CoupledState, pairs: Pairs | None, u: FloatArray
-    ) -> tuple[Pairs | None, bool]:
-        """Pairs at displacements `u`, and whether those that touch were the ones used."""
+    def _followed(self, state: CoupledState, pairs: Pairs | None, u: FloatArray) -> Pairs | None:
+        """Pairs to go on with at displacements `u`; the same object if they still hold."""
         found = self._pairs(state, u)
         if found is None or pairs is None:
-            return found, True
-        x = self.mechanics.mesh.points + u
-        return found, np.array_equal(touching(found, x), touching(pairs, x))
+            return pairs
+        return followed(pairs, found, self.mechanics.mesh.points + u, self.mechanics.boundary)
 
     def _contact(self, problem: StepProblem, x: Iterate, evaluation: StepEvaluation) -> RoadContact:
         """Contact quantities of a converged iterate."""
@@ -363,7 +360,7 @@ class CoupledModel:
         if pairs is None or forces is None:
             return None
         shear = np.zeros(self.mechanics.boundary.nodes.size)
-        shear[pairs.place] = forces.shear
+        np.add.at(shear, pairs.place, forces.shear)
         return shear
 
     def _heat(
