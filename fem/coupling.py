@@ -111,8 +111,8 @@ class AcceptedStep:
         Nodal forces and kinematics at the end.
     problem : StepProblem
         The mechanics problem (velocities, viscous term).
-    iterations : int
-        Newton iterations of all passes.
+    iterations, hardest_pass : int
+        Newton iterations of all passes, and of the pass that took most.
     lag_error : float
         Relative change of the friction force that a further pass would bring [-].
     power : (m,) float array
@@ -133,6 +133,7 @@ class AcceptedStep:
     evaluation: StepEvaluation
     problem: StepProblem
     iterations: int
+    hardest_pass: int
     lag_error: float
     power: FloatArray
     kappa: FloatArray
@@ -235,7 +236,8 @@ class CoupledModel:
         Passes over the friction coefficient and over the pairs of self-contact, each from the
         solution of the last.
         """
-        mu, pairs, iterations, start = state.mu, self._pairs(state, state.mechanics.u), 0, None
+        mu, pairs, start = state.mu, self._pairs(state, state.mechanics.u), None
+        iterations = hardest = 0
         for number in range(1, PASSES_MAX + 1):
             load = StepLoad(
                 dt=target.dt, sweep=target.sweep, force=target.force, mu=mu, pairs=pairs
@@ -243,6 +245,7 @@ class CoupledModel:
             problem = self.mechanics.step(state.mechanics, load)
             result = newton.solve(problem, start or problem.start(), self.options)
             iterations += result.iterations
+            hardest = max(hardest, result.iterations)
             if result.failure is not None:
                 return RejectedStep(
                     failure=result.failure, detail=result.detail, iterations=iterations
@@ -255,7 +258,7 @@ class CoupledModel:
             if mu_settled and next_pairs is pairs:
                 return self._accept(
                     state, target, problem, result, contact, mu_next,
-                    iterations=iterations, lag=lag,
+                    iterations=iterations, hardest=hardest, lag=lag,
                 )  # fmt: skip
             mu, pairs, start = mu if mu_settled else mu_next, next_pairs, result.x
         return RejectedStep(
@@ -312,6 +315,7 @@ class CoupledModel:
         mu_next: FloatArray,
         *,
         iterations: int,
+        hardest: int,
         lag: float,
     ) -> AcceptedStep:
         x = result.x
@@ -333,7 +337,8 @@ class CoupledModel:
         )  # fmt: skip
         return AcceptedStep(
             before=state, after=after, target=target, evaluation=result.evaluation,
-            problem=problem, iterations=iterations, lag_error=lag, power=power, kappa=kappa,
+            problem=problem, iterations=iterations, hardest_pass=hardest, lag_error=lag,
+            power=power, kappa=kappa,
             capped=uncapped > self.laws.partition.cap, self_friction=float(work.sum()),
             penetration=self._penetration(problem, x.u),
         )  # fmt: skip

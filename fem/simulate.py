@@ -110,7 +110,7 @@ class _Run:
             if isinstance(attempt, AcceptedStep):
                 at = stop
                 self._accept(attempt, phase, at)
-                step = max(control.accepted(length, attempt.iterations), min(step, length))
+                step = max(control.accepted(length, attempt.hardest_pass), min(step, length))
                 continue
             self.rejected += 1
             self.log.append(
