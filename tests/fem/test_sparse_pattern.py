@@ -77,6 +77,7 @@ def test_row_slots_allow_row_operations(numbering):
     expected = before.copy()
     expected[rows] *= factor[:, None]
     np.testing.assert_allclose(pattern.matrix(data).toarray(), expected, rtol=1e-15)
+    assert (np.diff(owner) >= 0).all()
 
 
 def test_slots_of_two_rows_of_a_node_pair_up(numbering):
