@@ -11,7 +11,8 @@ import importlib.util
 import os
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -64,6 +65,7 @@ def _parser(command: str) -> argparse.ArgumentParser:
     _add_check(commands)
     _add_template(commands)
     _add_calibrate(commands, wanted=command == "calibrate")
+    _add_sweep(commands)
     _add_figure(commands)
     _add_table(commands)
     return parser
@@ -229,6 +231,63 @@ def _summary_table(summary: dict[str, Any]) -> str:
 
 def _shown(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+# -- sweep -------------------------------------------------------------------------------------
+
+
+def _add_sweep(commands: Any) -> None:
+    text = "Run all cases of a study file in parallel."
+    parser = commands.add_parser("sweep", help="run a study", description=text)
+    parser.add_argument("study", metavar="STUDY.toml", help="study file: base case and grid")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="folder of the results (default: results/STUDY)"
+    )
+    place = parser.add_mutually_exclusive_group()
+    place.add_argument(
+        "--workers", metavar="N", type=int, help="local processes (default: one per core)"
+    )
+    place.add_argument(
+        "--scheduler", metavar="tcp://host:port", help="dask scheduler to use instead"
+    )
+    parser.add_argument(
+        "--resume", action="store_true", help="keep the cases that are finished already"
+    )
+    parser.set_defaults(command=_sweep)
+
+
+def _sweep(arguments: argparse.Namespace) -> int:
+    from validation.sweep import sweep
+    from validation.sweep_progress import SweepBar, closing_line
+    from validation.sweep_workers import SchedulerLostError
+
+    directory = Path(arguments.output or Path("results") / Path(arguments.study).stem)
+    _check_writable(directory)
+    try:
+        with _terminable(), SweepBar() as bar:
+            state = sweep(
+                arguments.study,
+                directory,
+                workers=arguments.workers,
+                scheduler=arguments.scheduler,
+                resume=arguments.resume,
+                progress=bar,
+            )
+    except SchedulerLostError as error:
+        print(f"treadfem: {error}; --resume goes on from {directory}", file=sys.stderr)
+        return NOT_CONVERGED
+    print(closing_line(state, directory))
+    return DONE if state.all_ok else NOT_CONVERGED
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Let a request to terminate end the block as Ctrl-C does."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 # -- check, template ---------------------------------------------------------------------------
