@@ -18,15 +18,29 @@ def write_text(path: str | Path, text: str) -> None:
 
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
-    """Give a temporary path with the same suffix; it replaces `path` if the block succeeds."""
+    """Give a temporary path with the same suffix; it replaces `path` if the block succeeds.
+
+    The content is on the disk before it gets its name, so that not even a power cut leaves an
+    empty file under it.
+    """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         yield temporary
+        with temporary.open("rb+") as file:
+            os.fsync(file.fileno())
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def remove(path: str | Path) -> None:
+    """Remove a file that `replacing` wrote, and what killed processes left of writing it."""
+    path = Path(path)
+    path.unlink(missing_ok=True)
+    for remains in path.parent.glob(f".{path.stem}.*{path.suffix}"):
+        remains.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -75,6 +89,14 @@ def _merge(stage: Path, target: Path, outdated: Sequence[str], last: str | None)
     for name in sorted(files, key=lambda name: str(name) == last):
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         os.replace(stage / name, target / name)
+    _remove_remains(stage, target)
+
+
+def _remove_remains(stage: Path, target: Path) -> None:
+    """Remove the temporary folders that killed processes left inside the target."""
+    for remains in target.glob(f"{stage.name[: -len('12345678')]}????????"):
+        if remains != stage and remains.is_dir():
+            shutil.rmtree(remains, ignore_errors=True)
 
 
 def _umask() -> int:

@@ -160,3 +160,6 @@ class Output(Section):
     )
     vtu: bool = Field(True, description="write the snapshots for ParaView")
     figures: bool = Field(True, description="draw the figures of the run")
+    checkpoint_s: NotNegative = Field(
+        5.0, description="time between checkpoints of a run [s]; 0 is one after each step"
+    )

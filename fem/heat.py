@@ -348,7 +348,10 @@ class HeatModel:
         return self._conductivities[key]
 
     def _factor(self, displacement: FloatArray, dt: float) -> Factorisation:
-        key = (displacement.tobytes(), float(f"{dt:.12g}"))
+        # Increments that differ by rounding share a matrix, made of the rounded value: otherwise
+        # the result would depend on which of them came first.
+        dt = float(f"{dt:.12g}")
+        key = (displacement.tobytes(), dt)
         if key not in self._factors:
             self._factors[key] = self.block.factorise(displacement, dt)
             self.factorisations += 1

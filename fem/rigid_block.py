@@ -131,7 +131,9 @@ def bottom_lengths(mesh: BlockMesh) -> FloatArray:
     return np.asarray(np.append(halves, 0.0) + np.append(0.0, halves))
 
 
-def slide_rigid_block(model: HeatModel, sliding: RigidSliding) -> Iterator[RigidStep]:
+def slide_rigid_block(
+    model: HeatModel, sliding: RigidSliding, heat: HeatState | None = None, done: int = 0
+) -> Iterator[RigidStep]:
     """Slide a rigid block over the road at constant velocity.
 
     Parameters
@@ -140,6 +142,10 @@ def slide_rigid_block(model: HeatModel, sliding: RigidSliding) -> Iterator[Rigid
         Heat of block and road.
     sliding : RigidSliding
         Loading and laws.
+    heat : HeatState, optional
+        State to go on from after `done` steps.
+    done : int, optional
+        Steps that are made already.
 
     Yields
     ------
@@ -155,8 +161,8 @@ def slide_rigid_block(model: HeatModel, sliding: RigidSliding) -> Iterator[Rigid
     steps = max(1, int(np.ceil(sliding.distance / sliding.step_mm - 1e-9)))
     dt = sliding.distance / steps / speed
     at_rest = np.zeros_like(mesh.points)
-    heat = model.initial_state()
-    for step in range(1, steps + 1):
+    heat = heat or model.initial_state()
+    for step in range(done + 1, steps + 1):
         mu = sliding.friction.coefficient(p, speed, heat.T[mesh.bottom])
         dissipated = mu * p * speed * lengths
         load = HeatLoad(

@@ -14,12 +14,14 @@ import numpy as np
 import pandas as pd
 
 from fem.case import Case
+from fem.checkpoint import Checkpoint, notes
 from fem.heat import HeatModel
 from fem.model_parts import Progress, mesh_of
 from fem.outcome import INTERRUPTED, OK, Outcome
 from fem.recorder import temperature_columns
 from fem.results import Result
 from fem.rigid_block import RigidSliding, RigidStep, slide_rigid_block
+from fem.run_point import Records, RigidPoint, RigidRecord, columns, snapshots_due
 from fem.run_summary import largest, last_values, sliding_means
 from fem.snapshot import BlockGeometry, Snapshot
 
@@ -27,8 +29,14 @@ from fem.snapshot import BlockGeometry, Snapshot
 class _RigidRun:
     """Accepted state of a rigid run and what was recorded of it."""
 
-    def __init__(self, case: Case, progress: Callable[[Progress], None] | None) -> None:
-        self.case, self.progress = case, progress
+    def __init__(
+        self,
+        case: Case,
+        progress: Callable[[Progress], None] | None,
+        checkpoint: Checkpoint | None = None,
+    ) -> None:
+        self.case, self.progress, self.checkpoint = case, progress, checkpoint
+        self.started = time.perf_counter()
         self.mesh = mesh_of(case)
         self.model = HeatModel.from_case(case, self.mesh)
         self.sliding = RigidSliding.from_case(case)
@@ -36,18 +44,48 @@ class _RigidRun:
         self.rows: list[dict[str, Any]] = []
         self.snapshots: list[Snapshot] = []
         self.work = self.capped = self.time = self.distance = self.position = 0.0
-        count = case.output.snapshots
-        self._due = list(np.linspace(0.0, case.loading.distance_mm, count + 1)[1:])
+        self._due = snapshots_due(case)
+        self.log = [f"rigid {case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
+                    f"{len(self.mesh.cells)} elements"]  # fmt: skip
+        self.point = self._point()
 
     @property
     def geometry(self) -> BlockGeometry:
         """Mesh for output."""
         return BlockGeometry(points=self.mesh.points, cells=self.mesh.cells)
 
+    def _point(self) -> RigidPoint:
+        return RigidPoint(
+            steps=len(self.rows), heat=self.heat, time=self.time, distance=self.distance,
+            position=self.position, work=self.work, capped=self.capped,
+            snapshots=len(self.snapshots),
+        )  # fmt: skip
+
+    def kept(self) -> RigidRecord:
+        """What a checkpoint holds: the last point, and the records up to it."""
+        point = self.point
+        records = Records(
+            history=columns(self.rows[: point.steps]), snapshots=self.snapshots[: point.snapshots],
+            log=self.log, wall_s=time.perf_counter() - self.started,
+        )  # fmt: skip
+        return RigidRecord(point=point, records=records)
+
+    def go_on_from(self, kept: RigidRecord) -> None:
+        """Take over the point and the records of an interrupted run."""
+        point, records = kept.point, kept.records
+        self.point, self.heat = point, point.heat
+        self.time, self.distance, self.position = point.time, point.distance, point.position
+        self.work, self.capped = point.work, point.capped
+        self.rows, self.snapshots = records.rows, records.snapshots
+        self._due = snapshots_due(self.case, self.distance)
+        self.log = [*records.log, f"resumed after {point.steps} steps, {self.distance:.6g} mm"]
+        self.started -= records.wall_s
+
     def run(self) -> Outcome:
         """Slide to the end, or until the user interrupts."""
+        heat, done = self.point.heat, self.point.steps
         try:
-            for step in slide_rigid_block(self.model, self.sliding):
+            for step in slide_rigid_block(self.model, self.sliding, heat, done):
                 self._accept(step)
         except KeyboardInterrupt:
             return Outcome(status=INTERRUPTED, reason="interrupted by the user")
@@ -63,6 +101,9 @@ class _RigidRun:
         if self._due and self.distance >= self._due[0]:
             self._due = [distance for distance in self._due if distance > self.distance]
             self.snapshot()
+        self.point = self._point()
+        if self.checkpoint is not None:
+            self.checkpoint.keep(self.kept)
         if self.progress is not None:
             self.progress(
                 Progress(
@@ -155,7 +196,7 @@ class _RigidRun:
             }
         )
 
-    def summary(self, outcome: Outcome, wall: float) -> dict[str, Any]:
+    def summary(self, outcome: Outcome) -> dict[str, Any]:
         """Scalars of the run."""
         history, made = pd.DataFrame(self.rows), self.heat.generated
         summary: dict[str, Any] = {"status": outcome.status}
@@ -168,7 +209,7 @@ class _RigidRun:
             "dofs": len(self.mesh.points),
             "steps": len(history),
             "newton_iterations": 0,
-            "wall_s": wall,
+            "wall_s": time.perf_counter() - self.started,
             "energy_error": 0.0,
             "heat_error": abs(self.heat.imbalance) / made if made > 0.0 else 0.0,
             "regularisation_share": 0.0,
@@ -179,7 +220,12 @@ class _RigidRun:
         }
 
 
-def simulate_rigid(case: Case, progress: Callable[[Progress], None] | None = None) -> Result:
+def simulate_rigid(
+    case: Case,
+    progress: Callable[[Progress], None] | None = None,
+    checkpoint: Checkpoint | None = None,
+    resume: bool = False,
+) -> Result:
     """Simulate the rigid block of a case.
 
     Parameters
@@ -188,15 +234,23 @@ def simulate_rigid(case: Case, progress: Callable[[Progress], None] | None = Non
         The resolved case; the contact pressure is its mean pressure.
     progress : callable, optional
         Called with a `Progress` after each step.
+    checkpoint : Checkpoint, optional
+        Where to keep what is needed to go on after an interruption.
+    resume : bool, optional
+        Go on from the checkpoint if there is one.
 
     Returns
     -------
     Result
         The tables of a deformable run. When the user interrupts, everything up to then.
     """
-    start = time.perf_counter()
-    run = _RigidRun(case, progress)
+    kept = checkpoint.read(RigidRecord) if checkpoint is not None and resume else None
+    run = _RigidRun(case, progress, checkpoint)
+    if kept is not None:
+        run.go_on_from(kept)
     outcome = run.run()
+    if checkpoint is not None and outcome.status != OK:
+        checkpoint.keep(run.kept, now=True)
     if not run.snapshots or run.snapshots[-1].sliding_distance_mm < run.distance:
         run.snapshot()
     return Result.from_rows(
@@ -204,11 +258,7 @@ def simulate_rigid(case: Case, progress: Callable[[Progress], None] | None = Non
         run.geometry,
         run.rows,
         run.surface(),
-        run.summary(outcome, time.perf_counter() - start),
+        run.summary(outcome),
         run.snapshots,
-        log=[
-            f"rigid {case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
-            f"{len(run.mesh.cells)} elements",
-            f"status: {outcome.status} {outcome.reason}".rstrip(),
-        ],
+        log=[*run.log, *notes(checkpoint), f"status: {outcome.status} {outcome.reason}".rstrip()],
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ import pandas as pd
 from fem import newton
 from fem.audit import EnergyAudit, audited
 from fem.case import Case
+from fem.checkpoint import Checkpoint, notes
 from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState, SelfContact
 from fem.elements import Q1P0Elements
 from fem.heat import HeatModel
@@ -23,6 +25,7 @@ from fem.programme import Phase, programme, relaxation_time
 from fem.recorder import Recorder
 from fem.results import Result
 from fem.rigid_run import simulate_rigid
+from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
 from fem.run_summary import largest, last_values, sliding_means
 from fem.step_control import StepController, landed
 
@@ -75,8 +78,14 @@ def self_contact_of(case: Case, mesh: BlockMesh) -> SelfContact | None:
 class _Run:
     """State of a run between its steps: the accepted state, audit, records and counts."""
 
-    def __init__(self, case: Case, progress: Callable[[Progress], None] | None) -> None:
-        self.case, self.progress = case, progress
+    def __init__(
+        self,
+        case: Case,
+        progress: Callable[[Progress], None] | None,
+        checkpoint: Checkpoint | None = None,
+    ) -> None:
+        self.case, self.progress, self.checkpoint = case, progress, checkpoint
+        self.started = time.perf_counter()
         self.model = coupled_model(case)
         self.recorder = Recorder(case, self.model)
         self.state = self.model.initial_state()
@@ -85,23 +94,63 @@ class _Run:
         self.largest_energy_error = 0.0
         self.log = [f"{case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
                     f"{len(self.model.mechanics.mesh.cells)} elements"]  # fmt: skip
-        count = case.output.snapshots
-        self.snapshot_distances = list(np.linspace(0.0, case.loading.distance_mm, count + 1)[1:])
+        self.snapshot_distances = snapshots_due(case)
+        self.point = self._point(-1, 0.0, 0.0)
+
+    @property
+    def wall(self) -> float:
+        """Time spent on the run, that before an interruption included [s]."""
+        return time.perf_counter() - self.started
+
+    def _point(self, phase: int, at: float, step: float) -> RunPoint:
+        recorder = self.recorder
+        return RunPoint(
+            phase=phase, at=at, step=step, state=self.state, audit=self.audit,
+            iterations=self.iterations, rejected=self.rejected, smallest_J=recorder.smallest_J,
+            rows=len(recorder.rows), snapshots=len(recorder.snapshots), log=len(self.log),
+        )  # fmt: skip
+
+    def kept(self) -> RunRecord:
+        """What a checkpoint holds: the last point, and the records up to it."""
+        point, recorder = self.point, self.recorder
+        records = Records(
+            history=columns(recorder.rows[: point.rows]),
+            snapshots=recorder.snapshots[: point.snapshots], log=self.log[: point.log],
+            wall_s=self.wall, solver_s=self.model.mechanics.solver.seconds,
+        )  # fmt: skip
+        return RunRecord(point=point, records=records)
+
+    def go_on_from(self, kept: RunRecord) -> None:
+        """Take over the point and the records of an interrupted run."""
+        point, records, recorder = kept.point, kept.records, self.recorder
+        self.point, self.state, self.audit = point, point.state, point.audit
+        self.iterations, self.rejected = point.iterations, point.rejected
+        recorder.rows, recorder.snapshots = records.rows, records.snapshots
+        recorder.smallest_J = point.smallest_J
+        distance = recorder.rows[-1]["sliding_distance_mm"] if recorder.rows else 0.0
+        self.snapshot_distances = snapshots_due(self.case, distance)
+        self.log = [*records.log, f"resumed after {point.rows} steps, {distance:.6g} mm"]
+        self.started -= records.wall_s
+        self.model.mechanics.solver.seconds += records.solver_s
 
     def run(self) -> Outcome:
         """Go through all phases; the outcome says whether the end was reached."""
         try:
-            for phase in programme(self.case):
-                outcome = self._phase(phase)
+            for number, phase in enumerate(programme(self.case)):
+                outcome = self._phase(number, phase)
                 if outcome.status != OK:
                     return outcome
         except KeyboardInterrupt:
             return Outcome(status=INTERRUPTED, reason="interrupted by the user")
         return Outcome(status=OK)
 
-    def _phase(self, phase: Phase) -> Outcome:
+    def _phase(self, number: int, phase: Phase) -> Outcome:
+        if number < self.point.phase:
+            return Outcome(status=OK)
         control = StepController(step_max=phase.step_max, step_min=phase.step_min)
         step, at = phase.step_initial, 0.0
+        if number == self.point.phase:
+            step, at = self.point.step, self.point.at
         while at < phase.end:
             length = landed(at, step, phase.end)
             stop = phase.end if length == phase.end - at else at + length
@@ -111,6 +160,8 @@ class _Run:
                 at = stop
                 self._accept(attempt, phase, at)
                 step = max(control.accepted(length, attempt.hardest_pass), min(step, length))
+                self.point = self._point(number, at, step)
+                self._report()
                 continue
             self.rejected += 1
             self.log.append(
@@ -132,17 +183,29 @@ class _Run:
             while self.snapshot_distances and distance >= self.snapshot_distances[0]:
                 self.snapshot_distances.pop(0)
             self.recorder.snapshot(self.state, distance)
+
+    def _report(self) -> None:
+        """Tell the user and keep a checkpoint; here an interruption finds a finished step."""
+        row = self.recorder.rows[-1]
+        if self.checkpoint is not None:
+            self.checkpoint.keep(self.kept)
         if self.progress is not None:
             self.progress(
                 Progress(
-                    sliding_distance_mm=distance,
+                    sliding_distance_mm=row["sliding_distance_mm"],
                     T_max_C=row["T_max_C"],
                     newton_iterations=self.iterations,
                 )
             )
 
 
-def simulate(case: Case, *, progress: Callable[[Progress], None] | None = None) -> Result:
+def simulate(
+    case: Case,
+    *,
+    progress: Callable[[Progress], None] | None = None,
+    checkpoint: str | Path | None = None,
+    resume: bool = False,
+) -> Result:
     """Simulate the sliding tread block of a case.
 
     Parameters
@@ -151,23 +214,38 @@ def simulate(case: Case, *, progress: Callable[[Progress], None] | None = None) 
         The resolved case.
     progress : callable, optional
         Called with a `Progress` after each accepted step.
+    checkpoint : str or Path, optional
+        File that everything needed to go on is written to from time to time, and where the run
+        ends early. It is for the caller to remove when the results are safe.
+    resume : bool, optional
+        Go on from that file if it is there. The result is that of an uninterrupted run.
 
     Returns
     -------
     Result
         Tables, summary and snapshots. A run that could not finish has everything up to the last
         accepted step and says why in its summary.
+
+    Raises
+    ------
+    CheckpointError
+        If the checkpoint to resume from is damaged or of another case or version.
     """
+    kept_in = Checkpoint(checkpoint, case) if checkpoint is not None else None
     if case.block.rigid:
-        return simulate_rigid(case, progress)
-    start = time.perf_counter()
-    run = _Run(case, progress)
+        return simulate_rigid(case, progress, kept_in, resume)
+    kept = kept_in.read(RunRecord) if kept_in is not None and resume else None
+    run = _Run(case, progress, kept_in)
+    if kept is not None:
+        run.go_on_from(kept)
     outcome = run.run()
+    if kept_in is not None and outcome.status != OK:
+        kept_in.keep(run.kept, now=True)
     recorder = run.recorder
     distance = recorder.rows[-1]["sliding_distance_mm"] if recorder.rows else 0.0
     if not recorder.snapshots or recorder.snapshots[-1].sliding_distance_mm < distance:
         recorder.snapshot(run.state, distance)
-    summary = _summary(run, outcome, time.perf_counter() - start)
+    summary = _summary(run, outcome)
     return Result.from_rows(
         case,
         recorder.geometry,
@@ -175,11 +253,11 @@ def simulate(case: Case, *, progress: Callable[[Progress], None] | None = None) 
         recorder.surface(run.state),
         summary,
         recorder.snapshots,
-        log=[*run.log, f"status: {outcome.status} {outcome.reason}".rstrip()],
+        log=[*run.log, *notes(kept_in), f"status: {outcome.status} {outcome.reason}".rstrip()],
     )
 
 
-def _summary(run: _Run, outcome: Outcome, wall: float) -> dict[str, Any]:
+def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
     """Scalars of a run; forces and lengths are means over the sliding phase at full speed."""
     history = pd.DataFrame(run.recorder.rows)
     mechanics, heat, case = run.model.mechanics, run.state.heat, run.case
@@ -194,7 +272,7 @@ def _summary(run: _Run, outcome: Outcome, wall: float) -> dict[str, Any]:
         "dofs": mechanics.pattern.size + heat.T.size,
         "steps": len(history),
         "newton_iterations": run.iterations,
-        "wall_s": wall,
+        "wall_s": run.wall,
         "energy_error": run.audit.error,
         "heat_error": abs(heat.imbalance) / made if made > 0.0 else 0.0,
         "regularisation_share": run.audit.regularisation_share,
