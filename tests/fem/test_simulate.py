@@ -29,7 +29,7 @@ def coulomb():
 
 @pytest.fixture(scope="module")
 def huemer():
-    return simulate(case_of(HUEMER, distance=1.0))
+    return simulate(case_of(HUEMER))
 
 
 @pytest.fixture(params=["coulomb", "huemer"])
@@ -187,6 +187,46 @@ def test_a_free_top_carries_the_same_load():
     result = simulate(case_of(loading={"top": "pressure"}, distance=1.0))
     assert result.summary["status"] == "ok"
     assert result.history["normal_force_N_per_mm"].iloc[-1] == pytest.approx(5.0, rel=1e-3)
+
+
+LOW_FRICTION = {"law": "coulomb", "mu": 0.2, "wlf": False}
+ALL_HEAT = {"partition": {"prefactor": 1.0, "exponent": 0.0}}
+
+
+@pytest.fixture(scope="module")
+def low_friction():
+    """Little deformation, and all friction work made heat: close to a rigid block."""
+    return simulate(case_of(LOW_FRICTION, distance=6.0, heat=ALL_HEAT))
+
+
+def test_all_friction_work_becomes_heat_if_the_partition_says_so(low_friction):
+    """Heat comes from the forces at the end of the steps, the audit from their trapezoids."""
+    last = low_friction.history.iloc[-1]
+    work = last["friction_dissipation_mJ_per_mm"]
+    assert last["frictional_heat_mJ_per_mm"] == pytest.approx(work, rel=0.01)
+
+
+def test_the_road_takes_the_share_of_heat_it_takes_from_a_rigid_block(low_friction):
+    block = {"mesh": "coarse", "rigid": True}
+    rigid = simulate(case_of(LOW_FRICTION, distance=6.0, heat=ALL_HEAT, block=block))
+    shares = [
+        run.history["heat_in_road_mJ_per_mm"].iloc[-1]
+        / run.history["frictional_heat_mJ_per_mm"].iloc[-1]
+        for run in (low_friction, rigid)
+    ]
+    assert shares[0] == pytest.approx(shares[1], rel=0.1)
+
+
+def test_the_kinetic_energy_is_that_of_the_moving_block(low_friction):
+    """1207 kg/m^3 x 20 x 8 mm^2 at 300 mm/s, some of it still lagging behind the platen."""
+    energy = 0.5 * 1.207e-9 * 20.0 * 8.0 * 300.0**2
+    found = low_friction.history["kinetic_energy_mJ_per_mm"].iloc[-1]
+    assert found == pytest.approx(energy, rel=0.06)
+
+
+def test_without_inertia_there_is_no_kinetic_energy():
+    result = simulate(case_of(distance=0.2, solver={"inertia": False}))
+    assert (result.history["kinetic_energy_mJ_per_mm"] == 0.0).all()
 
 
 # ------------------------------------------------------------------------- how it ends
