@@ -5,11 +5,12 @@ from __future__ import annotations
 import importlib.util
 import logging
 import os
+import signal
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 from fem.case_errors import CaseError
@@ -138,6 +139,7 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
         logging.getLogger(name).setLevel(logging.CRITICAL)
     if scheduler is None:
         with _local_cluster(workers) as cluster, Client(cluster) as client:
+            client.register_plugin(_deaf_to_interrupts())
             yield client
         return
     try:
@@ -162,24 +164,30 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
 def _local_cluster(workers: int) -> Iterator[Any]:
     from distributed import LocalCluster
 
-    cluster = LocalCluster(
-        n_workers=workers,
-        threads_per_worker=1,
-        processes=True,
-        # The dashboard needs a port and packages nobody asked for; memory is the system's matter.
-        dashboard_address=None,
-        memory_limit=0,
-        silence_logs=logging.CRITICAL,
-        env=_ONE_THREAD,
-        local_directory=_scratch(),
-    )
-    try:
-        yield cluster
-    finally:
-        cluster.close(timeout=5.0)
+    with tempfile.TemporaryDirectory(prefix="treadfem-", ignore_cleanup_errors=True) as scratch:
+        cluster = LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            # The dashboard needs a port and more packages; memory is the system's matter.
+            dashboard_address=None,
+            memory_limit=0,
+            silence_logs=logging.CRITICAL,
+            env=_ONE_THREAD,
+            local_directory=scratch,
+        )
+        try:
+            yield cluster
+        finally:
+            cluster.close(timeout=5.0)
 
 
-def _scratch() -> str:
-    import tempfile
+def _deaf_to_interrupts() -> Any:
+    """Plugin for local workers: Ctrl-C reaches them too, but the sweep is who ends them."""
+    from distributed import WorkerPlugin
 
-    return str(Path(tempfile.gettempdir()) / f"treadfem-{os.getpid()}")
+    class DeafToInterrupts(WorkerPlugin):  # type: ignore[misc, unused-ignore]
+        def setup(self, worker: Any) -> None:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    return DeafToInterrupts()
