@@ -96,6 +96,11 @@ class StepEvaluation:
     elements: ElementForces | None
     pairs: PairForces | None = None
 
+    @property
+    def signature(self) -> bytes:
+        """Name of the status asked for."""
+        return self.status.kind.astype(np.int8).tobytes()
+
 
 class BlockMechanics:
     """Discrete equations of a block between platen and road.

@@ -25,6 +25,11 @@ class Evaluation(Protocol):
         """Whether the discrete choices (active set) of the iterate no longer change."""
         ...
 
+    @property
+    def signature(self) -> bytes:
+        """Name of the discrete choices; equal for equal ones."""
+        ...
+
 
 class Problem(Protocol[X, E]):
     """A nonlinear problem with iterates X and evaluations E; neither changes state."""
@@ -53,6 +58,7 @@ class Failure(Enum):
     INADMISSIBLE = "no admissible step (an element would invert or reach the locking stretch)"
     SINGULAR = "the tangent is singular (limit point or missing support)"
     DIVERGED = "the residual grows whatever the step length"
+    CYCLING = "the active set cycles: no contact state fits a step of this length"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,12 +76,15 @@ class NewtonOptions:
     growth_max : float
         Largest accepted growth of the merit over the largest of the last iterates. Above one,
         since the merit jumps when the active set changes.
+    cycles_max : int
+        Allowed returns to an active set seen before without a clearly smaller merit.
     """
 
     tolerance: float = 1.0
     iterations_max: int = 25
     halvings_max: int = 8
     growth_max: float = 20.0
+    cycles_max: int = 2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,7 +122,7 @@ def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[
     evaluation = problem.evaluate(x)
     if not np.isfinite(evaluation.merit):
         return NewtonResult(x=x, evaluation=evaluation, iterations=0, failure=Failure.INADMISSIBLE)
-    merits = [evaluation.merit]
+    merits, cycles = [evaluation.merit], _CycleCount()
     for iteration in range(options.iterations_max):
         if evaluation.settled and evaluation.merit <= options.tolerance:
             return NewtonResult(x=x, evaluation=evaluation, iterations=iteration)
@@ -134,12 +143,36 @@ def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[
             )
         x, evaluation = step
         merits.append(evaluation.merit)
+        if cycles.returns(evaluation) > options.cycles_max:
+            return NewtonResult(
+                x=x, evaluation=evaluation, iterations=iteration + 1, failure=Failure.CYCLING
+            )
     if evaluation.settled and evaluation.merit <= options.tolerance:
         return NewtonResult(x=x, evaluation=evaluation, iterations=options.iterations_max)
     return NewtonResult(
         x=x, evaluation=evaluation, iterations=options.iterations_max,
         failure=Failure.ITERATIONS, detail=f"last merit {evaluation.merit:.2e}",
     )  # fmt: skip
+
+
+class _CycleCount:
+    """Counts returns to active sets seen before that bring no progress."""
+
+    #: A merit below this share of the last one with the same set counts as progress.
+    PROGRESS = 0.7
+
+    def __init__(self) -> None:
+        self.merits: dict[bytes, float] = {}
+        self.count = 0
+
+    def returns(self, evaluation: Evaluation) -> int:
+        """Number of returns so far, with this evaluation."""
+        if evaluation.settled:
+            return 0
+        last = self.merits.get(evaluation.signature)
+        self.count += last is not None and evaluation.merit > self.PROGRESS * last
+        self.merits[evaluation.signature] = evaluation.merit
+        return self.count
 
 
 def _line_search(

@@ -23,6 +23,10 @@ ADVICE = {
         "the block has lost its support or buckles: switch [solver] inertia on, or use a smaller "
         "pressure"
     ),
+    Failure.CYCLING: (
+        "the leading edge snaps; a larger [solver] viscous_distance_mm carries it through more "
+        "gently, a finer mesh in smaller steps"
+    ),
     Failure.DIVERGED: "use smaller steps ([solver] step_mm_max) or a finer mesh",
 }
 
