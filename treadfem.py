@@ -1,7 +1,7 @@
 """The command line of treadfem: parses, calls, prints.
 
 Exit codes: 0 done; 2 bad input (one line on stderr, nothing written); 3 did not converge (what was
-accepted is written); 130 interrupted (what was accepted is written).
+accepted is written); 130 interrupted (what was accepted is written, `--resume` goes on from it).
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ from typing import Any, NoReturn
 from fem import Case, simulate
 from fem.case_errors import CaseError
 from fem.case_reading import parse_override
+from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
+from fem.resume import resumable
 from fem.template import case_template
 
 DONE, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 0, 2, 3, 130
@@ -114,6 +116,12 @@ def _add_run(commands: Any) -> None:
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="folder of the results (default: results/CASE)"
     )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on from the checkpoint that an interrupted (or killed) run left in DIR; "
+        "the result is that of an uninterrupted run",
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(command=_run)
 
@@ -122,15 +130,37 @@ def _run(arguments: argparse.Namespace) -> int:
     case = _load(arguments)
     directory = Path(arguments.output or Path("results") / Path(arguments.case).stem)
     _check_writable(directory)
+    checkpoint = directory / CHECKPOINT_FILE
+    found = resumable(directory, case) if arguments.resume else "nothing"
+    if not arguments.quiet:
+        _say_how_it_starts(found, checkpoint, resume=arguments.resume)
+    if found == "finished":
+        return DONE
 
     with _Progress(case, quiet=arguments.quiet) as progress, _Interruptible(progress):
-        result = simulate(case, progress=progress)
+        result = simulate(
+            case, progress=progress, checkpoint=checkpoint, resume=found == "checkpoint"
+        )
     result.write(directory)
     if case.output.figures:
         from validation.run_figures import write_run_figures
 
         write_run_figures(directory)
+    if result.summary["status"] == "ok":
+        # Only now: whatever came before can be interrupted, too.
+        remove_checkpoint(checkpoint)
     return _close(result.summary, directory, quiet=arguments.quiet)
+
+
+def _say_how_it_starts(found: str, checkpoint: Path, *, resume: bool) -> None:
+    if found == "finished":
+        print(f"{checkpoint.parent} holds the finished run of this case: nothing to do")
+    elif found == "checkpoint":
+        print(f"going on from {checkpoint}", flush=True)
+    elif resume:
+        print(f"no checkpoint in {checkpoint.parent}: starting from the beginning", flush=True)
+    elif checkpoint.exists():
+        print(f"starting from the beginning; --resume goes on from {checkpoint}", flush=True)
 
 
 def _check_writable(directory: Path) -> None:
@@ -219,6 +249,8 @@ def _close(summary: dict[str, Any], directory: Path, *, quiet: bool) -> int:
         print(f"results in {directory}")
     if code != DONE:
         advice = [str(summary[key]) for key in ("reason", "advice") if summary.get(key)]
+        if code == INTERRUPTED and (directory / CHECKPOINT_FILE).exists():
+            advice.append("--resume goes on from there")
         text = ": ".join([f"treadfem: {status}", "; ".join(advice)] if advice else [status])
         print(" ".join(text.split()), file=sys.stderr)
     return code

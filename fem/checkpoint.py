@@ -11,7 +11,6 @@ import json
 import time
 import zipfile
 from collections.abc import Callable, Mapping
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -22,6 +21,7 @@ from fem.atomic_files import remove, replacing
 from fem.case import Case
 from fem.case_errors import CaseError, describe
 from fem.packing import PackingError, pack, unpack
+from fem.program_version import program_version
 
 T = TypeVar("T")
 Array = NDArray[Any]
@@ -95,14 +95,6 @@ def notes(checkpoint: Checkpoint | None) -> list[str]:
     return [f"{line}; {checkpoint.problem}" if checkpoint.problem else line]
 
 
-def program_version() -> str:
-    """Version of the installed program."""
-    try:
-        return version("treadfem")
-    except PackageNotFoundError:
-        return "unknown"
-
-
 def write_checkpoint(path: str | Path, case: Case, content: Any) -> None:
     """Write a checkpoint so that the earlier one stays in place until the new one is complete."""
     tree, arrays = pack(content)
@@ -128,13 +120,20 @@ def read_checkpoint(path: str | Path, case: Case, kind: type[T]) -> T:
         If the file is damaged, or of another format, program version or case.
     """
     path = Path(path)
+    about, arrays = check_checkpoint(path, case)
+    try:
+        return unpack(kind, about["content"], arrays)
+    except (PackingError, KeyError) as error:
+        raise _refused(path, "content", str(error), "what this version writes") from None
+
+
+def check_checkpoint(path: str | Path, case: Case) -> tuple[dict[str, Any], dict[str, Array]]:
+    """Description and arrays of a checkpoint that is complete and belongs to version and case."""
+    path = Path(path)
     about, arrays = _contents(path)
     _check_version(path, about)
     _check_case(path, about, case)
-    try:
-        return unpack(kind, about["content"], arrays)
-    except PackingError as error:
-        raise _refused(path, "content", str(error), "what this version writes") from None
+    return about, arrays
 
 
 def remove_checkpoint(path: str | Path) -> None:
@@ -172,13 +171,20 @@ def _check_version(path: Path, about: Mapping[str, Any]) -> None:
 def _check_case(path: Path, about: Mapping[str, Any], case: Case) -> None:
     if about.get("case_hash") == case.hash():
         return
-    found, expected = _flat(about.get("case")), _flat(case.to_dict())
-    for key in [*expected, *found]:
-        if found.get(key) != expected.get(key):
-            raise _refused(
-                path, key, describe(found.get(key)), f"{describe(expected.get(key))} as in the case"
-            )
-    raise _refused(path, "case", str(about.get("case_hash")), case.hash())
+    difference = first_difference(about.get("case"), case.to_dict())
+    if difference is None:
+        raise _refused(path, "case", f"hash {about.get('case_hash')}", case.hash())
+    key, found, expected = difference
+    raise _refused(path, key, found, f"{expected} as in the case")
+
+
+def first_difference(found: Any, expected: Any) -> tuple[str, str, str] | None:
+    """First dotted key in which two cases (nested tables) differ, and both values in words."""
+    one, other = _flat(found), _flat(expected)
+    for key in [*other, *one]:
+        if one.get(key) != other.get(key):
+            return key, describe(one.get(key)), describe(other.get(key))
+    return None
 
 
 def _flat(tables: Any, prefix: str = "") -> dict[str, Any]:
@@ -192,5 +198,5 @@ def _flat(tables: Any, prefix: str = "") -> dict[str, Any]:
 
 def _refused(path: Path, key: str, found: str, expected: str) -> CheckpointError:
     return CheckpointError(
-        file=str(path), key=key, found=found, expected=f"{expected} (remove it to start anew)"
+        file=str(path), key=key, found=found, expected=f"{expected} (or no --resume, to start anew)"
     )

@@ -52,7 +52,7 @@ class StubSimulation:
         self.summary = {"status": status, "T_max_C": 41.25, "steps": 2, **summary}
         self.cases: list[Case] = []
 
-    def simulate(self, case, *, progress=None):
+    def simulate(self, case, *, progress=None, **_):
         self.cases.append(case)
         for share in (0.5, 1.0):
             if progress is not None:
@@ -199,7 +199,7 @@ def test_interrupted_simulation_gives_code_130_and_keeps_what_was_accepted(case_
 
 def test_interrupt_before_anything_was_accepted_gives_code_130(case_file, capsys, stub):
     class Interrupted(StubSimulation):
-        def simulate(self, case, *, progress=None):
+        def simulate(self, case, *, progress=None, **_):
             raise KeyboardInterrupt
 
     stub(Interrupted())

@@ -1,31 +1,5 @@
-"""Which program made a result: the released version and a fingerprint of what computes."""
+"""Which program made a result (the runs of a sweep have to be of one program)."""
 
-from __future__ import annotations
+from fem.program_version import program_version
 
-import hashlib
-from functools import cache
-from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
-
-import contact
-import fem
-import materials
-
-#: The packages that decide the numbers of a run.
-_COMPUTING = (materials, contact, fem)
-
-
-@cache
-def program_version() -> str:
-    """Return e.g. ``0.1.0+5c0ffee5``: any change of the computing code changes the second part."""
-    digest = hashlib.sha256()
-    for package in _COMPUTING:
-        folder = Path(str(package.__file__)).parent
-        for path in sorted(folder.rglob("*.py")):
-            digest.update(path.relative_to(folder.parent).as_posix().encode())
-            digest.update(path.read_bytes())
-    try:
-        released = version("treadfem")
-    except PackageNotFoundError:
-        released = "0"
-    return f"{released}+{digest.hexdigest()[:8]}"
+__all__ = ["program_version"]
