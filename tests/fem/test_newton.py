@@ -13,11 +13,16 @@ class Point:
     merit: float
     settled: bool
     residual: float
+    signature: bytes = b""
 
 
 @dataclass
 class Scalar:
-    """f(x) = 0 with an optional domain; merit |f| / tolerance."""
+    """f(x) = 0 with an optional domain; merit |f| / tolerance.
+
+    The discrete state is a new one at each iterate until the problem settles, unless `state` gives
+    it from x.
+    """
 
     f: object
     slope: object
@@ -25,14 +30,16 @@ class Scalar:
     domain: tuple[float, float] = (-np.inf, np.inf)
     settles_after: int = 0
     longest: float = np.inf
+    state: object = None
     seen: list = field(default_factory=list)
 
     def evaluate(self, x):
         self.seen.append(x)
         if not self.domain[0] < x < self.domain[1]:
             return Point(merit=np.inf, settled=False, residual=np.nan)
-        r = self.f(x)
-        return Point(abs(r) / self.tolerance, len(self.seen) > self.settles_after, r)
+        r, count = self.f(x), len(self.seen)
+        state = str(count if self.state is None else self.state(x)).encode()
+        return Point(abs(r) / self.tolerance, count > self.settles_after, r, state)
 
     def direction(self, x, evaluation):
         slope = self.slope(x)
@@ -111,6 +118,24 @@ def test_running_out_of_iterations_is_named():
                    NewtonOptions(iterations_max=5))  # fmt: skip
     assert result.failure is Failure.ITERATIONS
     assert result.iterations == 5
+
+
+def root_of_both_signs(**options):
+    """sign(x) sqrt|x|: Newton's method jumps from x to -x for ever."""
+    return Scalar(
+        lambda x: np.sign(x) * np.sqrt(abs(x)), lambda x: 0.5 / np.sqrt(abs(x)), **options
+    )
+
+
+def test_a_cycle_of_states_without_progress_is_given_up_early_and_named():
+    result = solve(root_of_both_signs(settles_after=99, state=np.sign), 1.0, NewtonOptions())
+    assert result.failure is Failure.CYCLING
+    assert result.iterations < 10
+
+
+def test_the_same_jumps_in_a_settled_state_are_no_cycle():
+    result = solve(root_of_both_signs(state=np.sign), 1.0, NewtonOptions())
+    assert result.failure is Failure.ITERATIONS
 
 
 def test_growth_beyond_the_bound_is_cut_and_named_if_it_stays():
