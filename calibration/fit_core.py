@@ -49,6 +49,9 @@ class Problem:
         for the search over the starts, and only the last fit uses every point.
     canonical : callable, optional
         Puts parameters that may change places into the order that makes them unique.
+    absolute : bool
+        Whether the weights are reciprocals of known standard deviations. The covariance then
+        follows from them alone, and not from the scatter about the fit.
     """
 
     names: tuple[str, ...]
@@ -61,6 +64,7 @@ class Problem:
     linear: bool = False
     subset: Callable[[NDArray[np.intp]], "Problem"] | None = None
     canonical: Callable[[Array], Array] | None = None
+    absolute: bool = False
 
     def residuals(self, theta: Array) -> Array:
         difference = self.predict(theta) - self.observed
@@ -171,8 +175,7 @@ class FitResult:
 
     def interval(self, level: float = 0.95) -> dict[str, tuple[float, float]]:
         """Confidence intervals from the covariance and Student's distribution."""
-        freedom = max(self.n_data - len(self.names), 1)
-        factor = float(stats.t.ppf(0.5 + 0.5 * level, freedom))
+        factor = float(stats.t.ppf(0.5 + 0.5 * level, self._freedom))
         return {
             name: (self.values[name] - factor * error, self.values[name] + factor * error)
             for name, error in self.stderr.items()
@@ -201,8 +204,11 @@ class FitResult:
         """
         problem, k = self._problem(), self.names.index(name)
         least = float(np.sum(problem.residuals(self.theta) ** 2))
-        freedom = max(self.n_data - len(self.names), 1)
-        limit = least * (1.0 + float(stats.f.ppf(level, 1, freedom)) / freedom)
+        if problem.absolute:
+            limit = least + float(stats.chi2.ppf(level, 1))
+        else:
+            freedom = self._freedom
+            limit = least * (1.0 + float(stats.f.ppf(level, 1, freedom)) / freedom)
         others = np.delete(self.theta, k)
 
         def excess(value: float) -> float:
@@ -235,6 +241,13 @@ class FitResult:
         from calibration.parameter_file import write_parameter_file
 
         return write_parameter_file(self, path)
+
+    @property
+    def _freedom(self) -> float:
+        """Degrees of freedom of the scatter behind the standard errors."""
+        if self.problem is not None and self.problem.absolute:
+            return float("inf")
+        return max(self.n_data - len(self.names), 1)
 
     def _problem(self) -> Problem:
         if self.problem is None:
@@ -449,11 +462,11 @@ def uncertainty(
         f"{problem.names[i]} = {theta[i]:.6g} is at its bound" for i in np.flatnonzero(bound)
     ]
     covariance, free = np.full((k, k), np.nan), np.flatnonzero(~bound)
-    if n <= free.size:
+    if n < free.size or (n == free.size and not problem.absolute):
         warnings.append(f"{n} points for {free.size} parameters leave nothing for standard errors")
         return covariance, np.full(k, np.nan), tuple(warnings)
     if free.size:
-        s2 = float(residuals @ residuals) / (n - free.size)
+        s2 = _variance(problem, residuals, int(free.size))
         inverse, undetermined = _inverse_normal_matrix(J[:, free])
         covariance[np.ix_(free, free)] = s2 * inverse
         for i in np.flatnonzero(undetermined):
@@ -462,6 +475,13 @@ def uncertainty(
     warnings += _correlation_warnings(problem.names, covariance)
     warnings += _curvature_warnings(problem, theta, residuals, covariance)
     return covariance, np.sqrt(np.diag(covariance)), tuple(warnings)
+
+
+def _variance(problem: Problem, residuals: Array, fitted: int) -> float:
+    """Variance of the weighted residuals: known to be one, or their scatter about the fit."""
+    if problem.absolute:
+        return 1.0
+    return float(residuals @ residuals) / max(residuals.size - fitted, 1)
 
 
 def _inverse_normal_matrix(J: Array) -> tuple[Array, NDArray[np.bool_]]:
@@ -507,8 +527,8 @@ def _curvature_warnings(
     variance = np.diag(covariance)
     known = np.flatnonzero(np.isfinite(variance) & (variance > 0.0))
     least = float(residuals @ residuals)
-    s2 = least / max(residuals.size - known.size, 1)
-    exact = least <= 1e-20 * float(np.sum(problem.observed**2))
+    s2 = _variance(problem, residuals, int(known.size))
+    exact = not problem.absolute and least <= 1e-20 * float(np.sum(problem.observed**2))
     if problem.linear or exact or not known.size:
         return []
     curved = []
