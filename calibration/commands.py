@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from calibration.conductance import (
@@ -25,23 +26,30 @@ from calibration.friction import LAWS, compare_laws, fit_friction, read_friction
 from calibration.heating_rig import HeatingRig
 from calibration.hyperelastic import compare_models, fit_hyperelastic, select_data
 from calibration.parameter_file import parameter_text
+from calibration.partition import MOST_SIMULATIONS, PartitionFit, fit_partition
 from calibration.plots import (
     plot_comparison,
     plot_conductance,
     plot_friction,
     plot_hyperelastic,
     plot_master_curve,
+    plot_partition,
     plot_wlf,
     png,
 )
 from calibration.rig_file import read_contact_surface, read_heating_rig
+from calibration.simulation_progress import SimulationProgress
+from calibration.simulation_store import SimulationStoppedError, SimulationStore
 from calibration.stress_models import STRESS_MODELS
 from calibration.tables import read_table
 from calibration.wlf import fit_wlf, shift_sweeps
+from fem.case import Case
+from fem.case_errors import CaseError
+from fem.case_reading import parse_override
 from materials.hyperelastic import MODES
 from materials.wlf import WLF
 
-BAD_INPUT = 2
+BAD_INPUT, NOT_CONVERGED = 2, 3
 CONSTANTS = WLF()
 
 
@@ -191,6 +199,51 @@ def calibrate_conductance(
     return Outcome(text=text, files=files)
 
 
+def calibrate_partition(
+    path: str | Path,
+    case: Case,
+    directory: Path,
+    *,
+    intervals: str = "student",
+    quiet: bool = False,
+    **options: Any,
+) -> Outcome:
+    """Identify the heat partition from surface temperatures in the CSV file `path`.
+
+    The simulations are kept in `directory` as they finish (options of `fit_partition`).
+    """
+    with SimulationProgress(quiet=quiet) as progress:
+        store = SimulationStore(directory / "simulations", progress)
+        found = fit_partition(path, case, store, **options)
+    result = _with_intervals(found.result, intervals)
+    result = replace(result, metadata={**result.metadata, "case_file": Path(case.source).name})
+    files = _files(result, _partition_points(found))
+    files["kappas.csv"] = _csv(found.discrete)
+    files["fit.png"] = png(plot_partition(result, found.discrete))
+    made = "none" if not found.simulated else str(found.simulated)
+    text = f"{_heading(result, path)}\nconstant kappa at each pressure and velocity:\n"
+    text += f"{_shown(found.discrete)}\n{made} of the simulations had to be made"
+    return Outcome(text=text, files=files)
+
+
+def _partition_points(found: PartitionFit) -> pd.DataFrame:
+    conditions, result = found.data.conditions, found.result
+    rows = [int(row) for condition in conditions for row in found.data.table.rows[condition.rows]]
+    places = [condition.X for condition in conditions if condition.X is not None]
+    counts = [condition.observed.size for condition in conditions]
+    return pd.DataFrame(
+        {
+            "row": rows,
+            "p_stated_N_per_mm2": np.repeat([c.pressure for c in conditions], counts),
+            "v_mm_per_s": np.repeat([c.velocity for c in conditions], counts),
+            **({"X_mm": np.concatenate(places)} if places else {}),
+            found.data.quantity: result.observed,
+            "fit_C": result.predicted,
+            "residual_K": result.predicted - result.observed,
+        }
+    )
+
+
 def _with_intervals(result: FitResult, kind: str) -> FitResult:
     """The result with its 95 % intervals in the metadata, which the parameter file repeats."""
     found = {
@@ -250,20 +303,27 @@ def add_arguments(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run one calibration; bad data end with one line and exit code 2."""
-    directory = Path(arguments.output or Path("results") / "calibration" / arguments.kind)
+    directory = _folder(arguments)
     try:
         outcome: Outcome = arguments.calibrate(arguments)
         _require_folder(directory)
     except ValueError as error:
-        # DataError says the file itself; other messages are about the options
-        place = "" if isinstance(error, DataError) else f"{arguments.data}: "
+        # DataError and CaseError say the file; other messages are about the options
+        place = "" if isinstance(error, DataError | CaseError) else f"{arguments.data}: "
         print(f"treadfem: {place}{error}", file=sys.stderr)
         return BAD_INPUT
+    except SimulationStoppedError as error:
+        print(f"treadfem: {error} (finished simulations stay in {directory})", file=sys.stderr)
+        return NOT_CONVERGED
     outcome.write(directory)
     if not arguments.quiet:
         print(outcome.text)
         print(f"results in {directory}")
     return 0
+
+
+def _folder(arguments: argparse.Namespace) -> Path:
+    return Path(arguments.output or Path("results") / "calibration" / arguments.kind)
 
 
 def _require_folder(directory: Path) -> None:
@@ -349,6 +409,45 @@ def _add_conductance(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_partition(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--case", metavar="CASE.toml", required=True,
+        help="the block that slid; pressure and velocity come from the data",
+    )  # fmt: skip
+    parser.add_argument(
+        "--set", metavar="section.key=value", action="append", default=[], dest="overrides",
+        help="set a key of the case; may be repeated",
+    )  # fmt: skip
+    parser.add_argument(
+        "--profile", choices=("whole", "peak"), default="whole",
+        help="compare whole temperature profiles (where the data hold some) or their peaks",
+    )  # fmt: skip
+    parser.add_argument(
+        "--simulations", type=_count, default=MOST_SIMULATIONS, metavar="N",
+        help="at most that many per pressure and velocity (default %(default)s)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--intervals", choices=("student", "profile"), default="student",
+        help="95 %% intervals from the covariance or the profile of the sum of squares",
+    )  # fmt: skip
+
+    def calibrate(arguments: argparse.Namespace) -> Outcome:
+        case = Case.from_toml(arguments.case, dict(map(parse_override, arguments.overrides)))
+        directory = _folder(arguments)
+        _require_folder(directory)
+        return calibrate_partition(
+            arguments.data,
+            case,
+            directory,
+            profile=arguments.profile,
+            simulations=arguments.simulations,
+            intervals=arguments.intervals,
+            quiet=arguments.quiet,
+        )
+
+    parser.set_defaults(calibrate=calibrate)
+
+
 def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
     parser.add_argument(
         "--fix", metavar="NAME=VALUE", type=_fixed, action="append", help="hold a parameter"
@@ -396,6 +495,7 @@ def _fixed(text: str) -> tuple[str, float]:
 KINDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
     "hyperelastic": (_add_hyperelastic, "a hyperelastic model to stress-stretch tests"),
     "friction": (_add_friction, "a friction law to friction coefficients"),
+    "partition": (_add_partition, "the heat partition to surface temperatures of sliding blocks"),
     "conductance": (_add_conductance, "the gap conductance to a static heating test"),
     "wlf": (_add_wlf, "the WLF shift to shift factors or frequency sweeps"),
 }

@@ -93,7 +93,7 @@ class Conditioned:
     @property
     def simulated(self) -> Array:
         """Temperatures of the simulation where the observations are (n,) [deg C]."""
-        return self._observations(self.slide.T)
+        return self._observations(np.ones_like(self.slide.T))
 
     def predicted(self, law: HeatPartition, scale: float | None = None) -> Array:
         """Observations (n,) [deg C] to be expected with another law.
@@ -107,7 +107,7 @@ class Conditioned:
         ratio[touching] = scale * law(scale * p[touching]) / self.law(p[touching])
         # Points that have left the road since then: as the others, on average.
         ratio[~touching] = ratio[touching].mean() if touching.any() else 1.0
-        return self._observations(self.ambient + (self.slide.T - self.ambient) * ratio**self.m)
+        return self._observations(ratio)
 
     def misfit_ratio(self) -> float:
         """Factor of the partition for which the observations fit best in the mean square."""
@@ -132,17 +132,27 @@ class Conditioned:
         p = self.slide.pressure
         return float(p[law.uncapped(p) > law.cap].sum() / max(float(p.sum()), 1e-12))
 
-    def _observations(self, T: Array) -> Array:
-        X = self.slide.X
-        if self.condition.X is not None:
-            return np.asarray(np.interp(self.condition.X, X, T))
+    def _observations(self, ratio: Array) -> Array:
+        """Observations when the partition of every point changes by a factor (m,)."""
+        slide, place = self.slide, self.condition.X
+        T = self.ambient + (slide.T - self.ambient) * ratio**self.m
+        if place is not None:
+            return np.asarray(np.interp(place, slide.X, T))
+        return np.full(self.condition.observed.size, T[self._peak])
+
+    @property
+    def _peak(self) -> int:
+        """Point of the highest temperature of the interior.
+
+        A change of the law moves it along a maximum, which changes the temperature there less
+        than its own partition does.
+        """
+        X, T = self.slide.X, self.slide.T
         if self.law.exponent == 0.0:
             # A constant partition heats the crushed leading edge far more than the power law
             # does, and its peak may hide the valley behind it: the leading fifth is left out.
-            highest = float(T[X / X[-1] <= 1.0 - EDGE_ZONE].max())
-        else:
-            highest = interior_peak(X, T).T_max_C
-        return np.full(self.condition.observed.size, highest)
+            return int(np.argmax(np.where(X / X[-1] <= 1.0 - EDGE_ZONE, T, -np.inf)))
+        return int(np.searchsorted(X, interior_peak(X, T).X_of_peak_mm))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -239,6 +249,7 @@ class PartitionModel:
             prefactor=_rounded(law.prefactor), exponent=_rounded(law.exponent), cap=law.cap
         )
         platen = _rounded(platen)
+        kind = "rigid block, " if rigid else ""
         case = self.case.with_overrides(
             {
                 "block.rigid": rigid,
@@ -252,7 +263,7 @@ class PartitionModel:
         )
         return Conditioned(
             condition=condition,
-            slide=self.store.slide(case, f"{condition.name}, {_described(law)}"),
+            slide=self.store.slide(case, f"{kind}{condition.name}, {_described(law)}"),
             law=law,
             platen=platen,
             ambient=self.case.heat.ambient_C,

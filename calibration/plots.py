@@ -158,6 +158,27 @@ def plot_conductance(result: FitResult, record: HeatingRecord) -> Figure:
     return figure
 
 
+def plot_partition(result: FitResult, discrete: pd.DataFrame) -> Figure:
+    """Heat partition over the mean contact pressure with the fitted law, and the residuals."""
+    figure, (above, below) = _panels()
+    p = discrete["p_N_per_mm2"].to_numpy()
+    dots = {"color": COLOURS[0], "linestyle": "none", "markersize": 5}
+    error = np.nan_to_num(discrete["kappa_stderr"].to_numpy())
+    label = "constant κ, measured temperatures"
+    above.errorbar(p, discrete["kappa"], yerr=error, marker="o", capsize=3, label=label, **dots)
+    fine = np.geomspace(0.8 * p.min(), 1.2 * p.max(), 200)
+    prefactor, exponent = result.theta
+    label = f"κ = {prefactor:.4g} $p^{{{exponent:.4g}}}$, local p"
+    above.plot(fine, result.model(fine), color=COLOURS[1], label=label)
+    below.plot(p, discrete["fit_C"] - discrete["measured_C"], marker="o", **dots)
+    above.set_title(f"heat partition: RMSE {result.rmse:.3g} K", fontsize=10)
+    above.set_ylabel("heat partition κ [-]")
+    above.legend(fontsize=8)
+    below.set_xlabel("mean contact pressure [N/mm²]")
+    below.set_ylabel("fit - data [K]")
+    return figure
+
+
 def plot_comparison(table: pd.DataFrame, value: str, unit: str) -> Figure:
     """Bars of a measure of misfit by model."""
     figure = _figure(3.5)
