@@ -133,7 +133,7 @@ class Solver(Section):
     )
     inertia: bool = Field(True, description="backward-Euler inertia of the rubber")
     viscous_distance_mm: NotNegative = Field(
-        15.0,
+        30.0,
         description="Kelvin-Voigt regularisation: relaxation time times velocity [mm]; 0 is off",
     )
     self_contact: bool = Field(True, description="contact of the block's surface with itself")

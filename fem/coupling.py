@@ -36,7 +36,7 @@ IntArray = NDArray[np.int64]
 #: 1 W/(m^2 K) in N/(mm s K).
 W_PER_M2K = 1e-3
 #: Lag of the friction force below which no further pass is made [-].
-LAG_TOLERANCE = 1e-4
+LAG_TOLERANCE = 1e-3
 #: Largest number of passes over friction coefficient and pairs of self-contact.
 PASSES_MAX = 6
 
@@ -260,7 +260,8 @@ class CoupledModel:
                     state, target, problem, result, contact, mu_next,
                     iterations=iterations, hardest=hardest, lag=lag,
                 )  # fmt: skip
-            mu, pairs, start = mu if mu_settled else mu_next, next_pairs, result.x
+            mu, pairs = mu if mu_settled else mu_next, next_pairs
+            start = replace(result.x, reactions=None)
         return RejectedStep(
             failure=newton.Failure.ITERATIONS, detail="self-contact keeps changing its partners",
             iterations=iterations,
@@ -333,7 +334,7 @@ class CoupledModel:
         )  # fmt: skip
         after = CoupledState(
             time=state.time + target.dt, position=state.position + target.sweep,
-            mechanics=mechanics, heat=heat, contact=contact, mu=mu_next,
+            mechanics=mechanics, heat=heat, contact=contact, mu=self._coefficient(contact, heat),
         )  # fmt: skip
         return AcceptedStep(
             before=state, after=after, target=target, evaluation=result.evaluation,

@@ -58,11 +58,22 @@ class StepLoad:
 
 @dataclass(frozen=True, kw_only=True)
 class Iterate:
-    """Unknowns of the Newton iteration (also used for directions, with the status unused)."""
+    """Unknowns of the Newton iteration; directions and their changes have the same form.
+
+    Attributes
+    ----------
+    u, p : float arrays
+        Displacements (n, 2) [mm] and element pressures (ne,) [N/mm^2].
+    status : ContactStatus
+        Status the iterate was computed with.
+    reactions : (m, 2) float array or None
+        Nodal forces of the candidates by the linear system that gave the iterate [N/mm].
+    """
 
     u: FloatArray
     p: FloatArray
     status: ContactStatus
+    reactions: FloatArray | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -289,20 +300,29 @@ class StepProblem:
         if self.load.pairs is not None:
             pairs = pair_forces(self.load.pairs, system.mesh.points + x.u)
             np.add.at(nodal, self.load.pairs.nodes, pairs.residual.reshape(-1, 3, 2))
-        forces = self.contact_forces(x.u, nodal)
-        status = x.status
-        if not first:
-            status = next_status(
-                status, forces, self.load.mu,
-                force_tolerance=0.1 * system.tolerance, slip_tolerance=1e-12,
-            )  # fmt: skip
-        residual = self._residual(nodal, forces, status)
+        status = x.status if first else self._next_status(x, nodal)
+        residual = self._residual(nodal, self.contact_forces(x.u, nodal), status)
         stiffness = system.elements.K_bulk
         mismatch = np.abs(elements.pressure_residual * np.sqrt(system.elements.volume)).max()
         merit = max(self._size(residual, status, stiffness), mismatch) / system.tolerance
         return StepEvaluation(
             merit=float(merit), settled=not first and status.same_as(x.status),
             status=status, nodal=nodal, residual=residual, elements=elements, pairs=pairs,
+        )  # fmt: skip
+
+    def _next_status(self, x: Iterate, nodal: FloatArray) -> ContactStatus:
+        """Status that the iterate asks for.
+
+        Judged by the reactions of the linear system, the multipliers of the active set method:
+        those of the nonlinear forces hold, before convergence, the bulk modulus times the error
+        of the areas, which makes nodes pull that press in the solution.
+        """
+        forces = self.contact_forces(x.u, nodal)
+        if x.reactions is not None:
+            forces = replace(forces, normal=x.reactions[:, 1], tangential=x.reactions[:, 0])
+        return next_status(
+            x.status, forces, self.load.mu,
+            force_tolerance=0.1 * self.system.tolerance, slip_tolerance=1e-12,
         )  # fmt: skip
 
     def contact_forces(self, u: FloatArray, nodal: FloatArray) -> ContactForces:
@@ -336,18 +356,37 @@ class StepProblem:
 
     def direction(self, x: Iterate, evaluation: StepEvaluation) -> Iterate:
         """Newton direction with the status asked for by the iterate."""
-        system = self.system
-        assert evaluation.elements is not None
-        step = system.solver.solve(self.tangent(evaluation), -evaluation.residual)
+        system, elements = self.system, evaluation.elements
+        assert elements is not None
+        K = system.elements.tangent(elements, self.viscosity)
+        step = system.solver.solve(self._matrix(K, evaluation), -evaluation.residual)
         du = system.scatter(step)
-        dp = system.elements.pressure_increment(evaluation.elements, du)
-        return Iterate(u=du, p=dp, status=evaluation.status)
+        dp = system.elements.pressure_increment(elements, du)
+        change = self._force_change(K, evaluation, du)[system.candidates]
+        return Iterate(u=du, p=dp, status=evaluation.status, reactions=change)
+
+    def _force_change(
+        self, K: FloatArray, evaluation: StepEvaluation, du: FloatArray
+    ) -> FloatArray:
+        """Linear change of the nodal forces with `du`, (n, 2) [N/mm]."""
+        system, pairs, forces = self.system, self.load.pairs, evaluation.pairs
+        f = np.matmul(K, du[system.elements.cells].reshape(-1, 8, 1))
+        change = summed(system.elements.dofs.ravel(), f.ravel(), du.size).reshape(du.shape)
+        change += (system.mass / self.load.dt**2)[:, None] * du
+        if pairs is not None and forces is not None and forces.normal.any():
+            g = np.matmul(pair_tangents(pairs, forces), du[pairs.nodes].reshape(-1, 6, 1))
+            np.add.at(change, pairs.nodes, g.reshape(-1, 3, 2))
+        return change
 
     def tangent(self, evaluation: StepEvaluation) -> csc_matrix:
         """Tangent of the residual, with the status asked for by the iterate."""
-        system = self.system
         assert evaluation.elements is not None
-        K = system.elements.tangent(evaluation.elements, self.viscosity)
+        K = self.system.elements.tangent(evaluation.elements, self.viscosity)
+        return self._matrix(K, evaluation)
+
+    def _matrix(self, K: FloatArray, evaluation: StepEvaluation) -> csc_matrix:
+        """Assembled tangent of the element tangents `K`, inertia and contact."""
+        system = self.system
         data = system.pattern.sum(K)
         inertia = np.repeat(system.mass / self.load.dt**2, 2)
         equations = system.equation.ravel()
@@ -409,8 +448,14 @@ class StepProblem:
         self, x: Iterate, evaluation: StepEvaluation, direction: Iterate, alpha: float
     ) -> Iterate:
         """Iterate at ``x + alpha direction`` with the status of the direction."""
+        reactions = None
+        if direction.reactions is not None:
+            reactions = evaluation.nodal[self.system.candidates] + alpha * direction.reactions
         return Iterate(
-            u=x.u + alpha * direction.u, p=x.p + alpha * direction.p, status=direction.status
+            u=x.u + alpha * direction.u,
+            p=x.p + alpha * direction.p,
+            status=direction.status,
+            reactions=reactions,
         )
 
 

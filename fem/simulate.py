@@ -29,9 +29,9 @@ from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
 from fem.run_summary import largest, last_values, sliding_means
 from fem.step_control import StepController, landed
 
-#: Contact modulus of the block with itself over its bulk modulus: a pressure of a tenth of the
+#: Contact modulus of the block with itself over its bulk modulus: a pressure of 30 % of the
 #: bulk modulus then presses a node in by 1 % of the local element size.
-SELF_CONTACT_STIFFNESS = 10.0
+SELF_CONTACT_STIFFNESS = 30.0
 
 
 def coupled_model(case: Case) -> CoupledModel:

@@ -379,3 +379,10 @@ def test_a_step_of_no_load_from_rest_costs_no_iteration_beyond_the_first():
     assert np.abs(state.u).max() < 1e-12
     assert OPTIONS.iterations_max > 1
     assert YEOH.initial_shear_modulus > 0.0
+
+
+def test_a_block_is_pressed_without_friction_in_one_large_step():
+    grading = Grading(cells_x=12, cells_y=6, smallest_x=1.6, smallest_y=1.3)
+    system = small_block(block_mesh(20.0, 8.0, grading))
+    _, result, _ = solved(system, system.initial_state(), load_of(system, force=5.0))
+    assert result.iterations <= 8
