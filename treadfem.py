@@ -135,6 +135,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if not arguments.quiet:
         _say_how_it_starts(found, checkpoint, resume=arguments.resume)
     if found == "finished":
+        _draw(case, directory, missing_only=True)
         return DONE
 
     with _Progress(case, quiet=arguments.quiet) as progress, _Interruptible(progress):
@@ -142,14 +143,20 @@ def _run(arguments: argparse.Namespace) -> int:
             case, progress=progress, checkpoint=checkpoint, resume=found == "checkpoint"
         )
     result.write(directory)
-    if case.output.figures:
-        from validation.run_figures import write_run_figures
-
-        write_run_figures(directory)
+    _draw(case, directory)
     if result.summary["status"] == "ok":
         # Only now: whatever came before can be interrupted, too.
         remove_checkpoint(checkpoint)
     return _close(result.summary, directory, quiet=arguments.quiet)
+
+
+def _draw(case: Case, directory: Path, *, missing_only: bool = False) -> None:
+    """Draw the figures of a run that is written."""
+    last = directory / "figures" / ("final_state.png" if case.output.vtu else "surface.png")
+    if case.output.figures and not (missing_only and last.exists()):
+        from validation.run_figures import write_run_figures
+
+        write_run_figures(directory)
 
 
 def _say_how_it_starts(found: str, checkpoint: Path, *, resume: bool) -> None:

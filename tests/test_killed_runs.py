@@ -162,6 +162,22 @@ def test_a_finished_run_is_not_run_again(reference):
     assert (original / "summary.json").stat().st_mtime_ns == before
 
 
+def test_a_finished_run_that_was_killed_before_its_figures_gets_them(tmp_path, monkeypatch):
+    import treadfem
+
+    case = tmp_path / "case.toml"
+    case.write_text(CASE.replace("false", "true").replace("30.0", "0.3"))
+    command = ["run", str(case), "-o", str(tmp_path / "run"), "--quiet"]
+    with monkeypatch.context() as killed:
+        killed.setattr("validation.run_figures.save", lambda *_: sys.exit(KILLED))
+        with pytest.raises(SystemExit):
+            treadfem.main(command)
+    (tmp_path / "run" / "checkpoint.npz").unlink()  # runs that take no time have none
+    assert not (tmp_path / "run" / "figures").exists()
+    assert treadfem.main([*command, "--resume"]) == 0
+    assert len(list((tmp_path / "run" / "figures").glob("*.png"))) == 3
+
+
 def test_an_interrupted_run_is_resumed(reference, folder):
     original, _ = reference
     run = started(folder)
