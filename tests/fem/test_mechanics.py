@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 
 from contact.active_set import OPEN, SLIP, STICK, ContactStatus
 from fem.mechanics import Iterate, platen_displacement
+from fem.mesh import Grading, block_mesh
 from tests.fem.contact_steps import (
     OPTIONS,
     YEOH,
