@@ -130,6 +130,7 @@ def fit_partition(
         found.append(_discrete(model, condition, found, min(MOST_DISCRETE, simulations - 1)))
     result, slides, correction = _law(model, data, found, simulations)
     result = _completed(result, data, case, slides, correction)
+    result = replace(result, warnings=(*result.warnings, *_too_hot(found)))
     return PartitionFit(
         result=result,
         data=data,
@@ -283,6 +284,16 @@ def _warnings(slides: Sequence[Conditioned], law: HeatPartition, correction: flo
         for s in missed
     ]
     return warnings
+
+
+def _too_hot(found: Sequence[Simulated]) -> list[str]:
+    """Say which temperatures need more heat than the cap allows."""
+    return [
+        f"{estimate.slide.condition.name}: measured warmer than kappa = {estimate.slide.cap:g} "
+        "makes the block; check ambient, distance and units"
+        for estimate in found
+        if estimate.kappa >= estimate.slide.cap and estimate.slide.misfit_ratio() > 1.02
+    ]
 
 
 def _table(

@@ -124,8 +124,9 @@ class Conditioned:
     def kappa_error(self, kappa: float, noise: float | None) -> float:
         """Standard error of a constant partition [-]; `noise` [K] where no deviation is known."""
         slope = self.m * (self.predicted(constant(kappa, self.cap)) - self.ambient) / kappa
-        weights = self.condition.weights if noise is None else np.full(slope.size, 1.0 / noise)
-        return float(1.0 / np.linalg.norm(weights * slope))
+        if noise is not None:
+            return noise / float(np.linalg.norm(slope))
+        return float(1.0 / np.linalg.norm(self.condition.weights * slope))
 
     def capped_share(self, law: HeatPartition) -> float:
         """Share of the contact force where the law is capped [-]."""
