@@ -70,6 +70,7 @@ def _parser(command: str) -> argparse.ArgumentParser:
     _add_sweep(commands)
     _add_figure(commands)
     _add_table(commands)
+    _add_export(commands)
     return parser
 
 
@@ -437,6 +438,47 @@ def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list
         expected = f"one of {', '.join(map(str, sorted(known)))} or all"
         raise CaseError(file=what, key="N", found=repr(arguments.number), expected=expected)
     return [int(arguments.number)]
+
+
+# -- export ------------------------------------------------------------------------------------
+
+
+def _add_export(commands: Any) -> None:
+    parser = commands.add_parser(
+        "export",
+        help="write a case as an input deck of CalculiX",
+        description="Write a case as an input deck of CalculiX: mesh, rubber, road, constant "
+        "friction, pressing and sliding.",
+    )
+    _add_case_arguments(parser)
+    parser.add_argument(
+        "--format", choices=["inp"], default="inp", help="inp: CalculiX, in ABAQUS keywords"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="file of the deck (default: CASE.inp, here)"
+    )
+    parser.set_defaults(command=_export)
+
+
+def _export(arguments: argparse.Namespace) -> int:
+    from validation.export_deck import friction_remark, write_deck
+
+    case = _load(arguments)
+    path = Path(arguments.output or f"{Path(arguments.case).stem}.inp")
+    if path.is_dir() or not path.parent.is_dir():
+        found = f"{path}: a folder" if path.is_dir() else f"no folder {path.parent}"
+        raise CaseError(file=str(path), key="-o", found=found, expected="a file in a folder")
+    try:
+        write_deck(case, path)
+    except OSError as error:
+        found = error.strerror or str(error)
+        raise CaseError(
+            file=str(path), key="-o", found=found, expected="a file that can be written"
+        ) from None
+    if remark := friction_remark(case):
+        print(f"treadfem: {remark}", file=sys.stderr)
+    print(path)
+    return DONE
 
 
 if __name__ == "__main__":
