@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag, field_validator, model_validator
@@ -142,6 +143,13 @@ class Solver(Section):
     linear_solver: Literal["auto", "superlu", "pardiso"] = Field(
         "auto", description='"auto", "superlu" or "pardiso" (extra "fast")'
     )
+
+    @field_validator("linear_solver")
+    @classmethod
+    def _installed(cls, value: str) -> str:
+        if value == "pardiso" and find_spec("pypardiso") is None:
+            refuse("", '"pardiso" without pypardiso', '"superlu", or pip install treadfem[fast]')
+        return value
 
     @model_validator(mode="after")
     def _steps_in_order(self) -> Solver:

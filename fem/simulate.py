@@ -17,6 +17,7 @@ from fem.checkpoint import Checkpoint, notes
 from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState, SelfContact
 from fem.elements import Q1P0Elements
 from fem.heat import HeatModel
+from fem.linear_solver import linear_solver
 from fem.mechanics import BlockMechanics
 from fem.mesh import BlockMesh
 from fem.model_parts import Progress, mesh_of
@@ -45,6 +46,7 @@ def coupled_model(case: Case) -> CoupledModel:
         viscosity=relaxation_time(case) * rubber.initial_shear_modulus,
         top=case.loading.top,
         tolerance=solver.tolerance * force,
+        solver=linear_solver(solver.linear_solver),
     )
     laws = ContactLaws(
         friction=case.friction.law_object(),
