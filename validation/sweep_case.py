@@ -84,6 +84,9 @@ def run_task(task: SweepTask) -> CaseOutcome:
         If the user interrupts a simulation in this process; then nothing is written.
     """
     with _ONE_AT_A_TIME:
+        # Finished since the sweep began, by a worker that died before it could say so.
+        if (earlier := finished_outcome(task)) is not None:
+            return earlier
         # Of this thread only: a worker also talks to its scheduler meanwhile.
         wall, cpu = time.perf_counter(), time.thread_time()
         try:
@@ -127,7 +130,8 @@ def _simulated(task: SweepTask) -> dict[str, Any]:
     folder = Path(task.folder)
     if not _sees_the_sweep(folder):
         raise RuntimeError(f"the worker does not see {task.folder}: it needs a shared disk")
-    (folder / MARKER).unlink(missing_ok=True)
+    # Again, since a worker may have died on this case a minute ago.
+    forget(task)
     result = simulate(task.case)
     if result.summary["status"] == INTERRUPTED:
         raise KeyboardInterrupt

@@ -22,6 +22,8 @@ _CONNECT_S = 10.0
 _ONE_THREAD = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"), "1"
 )
+#: A worker died with the outcome still in its memory; the scheduler asks another one.
+_RUN_AGAIN = ("lost", "pending")
 INSTALL = "pip install 'treadfem[sweep]'"
 
 
@@ -106,6 +108,9 @@ def _distributed(client: Any, tasks: Sequence[SweepTask]) -> Iterator[CaseOutcom
         waiting = len(tasks)
         while waiting:
             for future in done.next_batch(block=False):
+                if future.status in _RUN_AGAIN:
+                    done.add(future)
+                    continue
                 waiting -= 1
                 yield _outcome(future, names[future.key])
             if client.status not in ("running", "connecting"):
@@ -118,12 +123,16 @@ def _distributed(client: Any, tasks: Sequence[SweepTask]) -> Iterator[CaseOutcom
 
 
 def _outcome(future: Any, name: str) -> CaseOutcome:
-    if future.status == "finished":
-        outcome: CaseOutcome = future.result()
-        return outcome
-    if future.status in ("cancelled", "lost", "pending"):
-        raise SchedulerLostError("the scheduler has forgotten the cases of this sweep")
-    error = future.exception()
+    from distributed import CancelledError
+
+    try:
+        error = future.exception()
+        if error is None:
+            outcome: CaseOutcome = future.result()
+            return outcome
+    except CancelledError:
+        reason = "the scheduler has forgotten the cases of this sweep"
+        raise SchedulerLostError(reason) from None
     reason = " ".join(f"{type(error).__name__}: {error}".split())
     if type(error).__name__ == "KilledWorker":
         reason = "the worker process died each time it ran this case (out of memory?)"
