@@ -287,8 +287,13 @@ def _warnings(slides: Sequence[Conditioned], law: HeatPartition, correction: flo
 
 
 def _too_hot(found: Sequence[Simulated]) -> list[str]:
-    """Say which temperatures need more heat than the cap allows."""
-    return [
+    """Say which temperatures need all the heat that the cap allows, or more."""
+    below = {s.slide.condition.pressure for s in found if s.kappa < s.slide.cap}
+    warnings = [
+        f"{len(below)} pressure{'' if len(below) == 1 else 's'} with a kappa below the cap: these "
+        "data do not determine the law, its standard errors do not hold"
+    ]
+    return (warnings if len(below) < 2 else []) + [
         f"{estimate.slide.condition.name}: measured warmer than kappa = {estimate.slide.cap:g} "
         "makes the block; check ambient, distance and units"
         for estimate in found

@@ -15,6 +15,16 @@ SLIDES = "".join(f"{p},{v},0.9\n" for p in (0.1, 0.3, 0.5) for v in (1, 30, 300)
 YEOH = ["hyperelastic"]
 HUEMER = ["friction"]
 WLF = ["wlf"]
+KAPPA = ["partition", "--case", "block.toml"]
+BLOCK = """
+[loading]
+mean_pressure_N_per_mm2 = 0.3
+velocity_mm_per_s = 300.0
+distance_mm = 1.0
+"""
+PEAKS = "mean_pressure_N_per_mm2,v_mm_per_s,T_max_C\n0.2,300,35\n0.4,300,36\n"
+PROFILE = "p_N_per_mm2,v_mm_per_s,X_mm,T_C\n"
+PROFILES = "".join(f"{p},300,{x},{30 + x}\n" for p in (0.2, 0.4) for x in (1, 4, 8, 12, 16))
 
 BAD = {
     "percent_strain": (YEOH, STRESS + "0,0,uniaxial\n50,0.5,uniaxial\n", 2, "stretch", "0"),
@@ -105,9 +115,67 @@ BAD = {
         "T_C",
         "one temperature",
     ),
+    "peaks_without_pressure": (
+        KAPPA,
+        "v_mm_per_s,T_max_C\n300,35\n",
+        1,
+        "p_N_per_mm2",
+        "the columns",
+    ),
+    "peaks_without_temperature": (
+        KAPPA,
+        "p_N_per_mm2,v_mm_per_s,T_C_max\n0.2,300,35\n",
+        1,
+        "T_max_C",
+        "the columns",
+    ),
+    "profile_without_place": (
+        KAPPA,
+        "p_N_per_mm2,v_mm_per_s,T_C\n0.2,300,35\n",
+        1,
+        "X_mm",
+        "the columns",
+    ),
+    "one_pressure": (KAPPA, PEAKS.replace("0.4", "0.2"), 3, "mean_pressure", "1 pressure"),
+    "pressure_in_kPa": (KAPPA, PEAKS + "300,300,35\n", 4, "mean_pressure", "300.0"),
+    "zero_pressure": (KAPPA, PEAKS + "0,300,35\n", 4, "mean_pressure", "above 0"),
+    "block_at_rest": (KAPPA, PEAKS + "0.3,0,35\n", 4, "v_mm_per_s", "0"),
+    "colder_than_at_the_start": (KAPPA, PEAKS + "0.3,300,19\n", 4, "T_max_C", "ambient_C = 20"),
+    "peak_below_absolute_zero": (KAPPA, PEAKS + "0.3,300,-300\n", 4, "T_max_C", "-300"),
+    "peak_in_kelvin": (KAPPA, PEAKS + "0.3,300,309\n", 4, "T_max_C", "309"),
+    "no_peak": (KAPPA, PEAKS + "0.3,300,nan\n", 4, "T_max_C", "'nan'"),
+    "sigma_of_zero": (
+        KAPPA,
+        PEAKS.replace("_C\n", "_C,sigma_K\n").replace("35\n", "35,0.5\n").replace("36\n", "36,0\n"),
+        3,
+        "sigma_K",
+        "above 0 K",
+    ),
+    "place_off_the_block": (KAPPA, PROFILE + PROFILES + "0.4,300,21,50\n", 12, "X_mm", "21"),
+    "place_backwards": (KAPPA, PROFILE + PROFILES + "0.4,300,3,50\n", 12, "X_mm", "ahead"),
+    "short_profile": (
+        KAPPA,
+        PROFILE + PROFILES + "0.5,300,3,50\n",
+        12,
+        "X_mm",
+        "1 points of a profile",
+    ),
+    "cold_profile": (
+        KAPPA,
+        PROFILE + "".join(f"{p},300,{x},15\n" for p in (0.2, 0.4) for x in range(5)),
+        2,
+        "T_C",
+        "at most 15 in 5 rows",
+    ),
     "shift_factor_of_zero": (WLF, "T_C,aT\n0,1\n10,0\n20,0.1\n", 3, "aT", "0"),
     "frozen_sweeps": (WLF, "T_C,log10_aT\n0,1\n-273.15,0\n20,2\n", 3, "T_C", "-273.15"),
 }
+
+
+@pytest.fixture(autouse=True)
+def beside_a_case(tmp_path, monkeypatch):
+    (tmp_path / "block.toml").write_text(BLOCK)
+    monkeypatch.chdir(tmp_path)
 
 
 def run(words):

@@ -6,12 +6,13 @@ import tomllib
 import pandas as pd
 import pytest
 
-from calibration import commands
+from calibration import commands, simulation_store
 from calibration.conductance import synthetic_heating_record
 from calibration.datasets import dataset_path
 from calibration.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synthetic_sweeps
 from contact import HuemerFriction
+from fem.simulate import simulate
 from materials import WLF
 
 
@@ -118,6 +119,86 @@ def test_conductance_is_found_and_c_of_eq_11_follows(tmp_path, capsys):
     assert content["fit"]["C_of_eq_11"] > 0.0
     names = {"parameters.toml", "fit.csv", "fit.png"}
     assert {path.name for path in (tmp_path / "o").iterdir()} == names
+
+
+RIGID = """
+[block]
+mesh = "coarse"
+rigid = true
+[loading]
+mean_pressure_N_per_mm2 = 0.3
+velocity_mm_per_s = 300.0
+distance_mm = 1.0
+"""
+SLIDES = """mean_pressure_N_per_mm2,v_mm_per_s,T_max_C,sigma_K
+0.2,300,23.5,0.5
+0.3,300,23.6,0.5
+0.4,300,23.4,0.5
+"""
+
+
+def partition_files(tmp_path):
+    data, case = tmp_path / "slides.csv", tmp_path / "block.toml"
+    data.write_text(SLIDES)
+    case.write_text(RIGID)
+    return ["partition", data, "--case", case, "-o", tmp_path / "o"]
+
+
+def test_partition_writes_law_points_and_discrete_estimates(tmp_path, capsys):
+    words = partition_files(tmp_path)
+    assert run(words) == 0
+    printed = capsys.readouterr().out
+    assert "simulation 1, rigid block" in printed
+    assert "constant kappa at each pressure" in printed
+    names = {"parameters.toml", "fit.csv", "fit.png", "kappas.csv", "simulations"}
+    assert {path.name for path in (tmp_path / "o").iterdir()} == names
+    content = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())
+    assert content["heat"]["partition"]["law"] == "power"
+    assert content["fit"]["standard_errors_from"] == "sigma of the data"
+    assert content["fit"]["case_file"] == "block.toml"
+    assert pd.read_csv(tmp_path / "o" / "fit.csv")["row"].to_list() == [2, 3, 4]
+
+    before = {p.name: p.read_bytes() for p in (tmp_path / "o").glob("*.*")}
+    assert run(words) == 0
+    assert "none of the simulations had to be made" in capsys.readouterr().out
+    assert {p.name: p.read_bytes() for p in (tmp_path / "o").glob("*.*")} == before
+
+
+def test_partition_goes_on_after_an_interruption(tmp_path, monkeypatch, capsys):
+    words, made = partition_files(tmp_path), []
+
+    def interrupted(case, **options):
+        if len(made) == 4:
+            raise KeyboardInterrupt
+        made.append(case)
+        return simulate(case, **options)
+
+    monkeypatch.setattr(simulation_store, "simulate", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        run(words)
+    assert not (tmp_path / "o" / "parameters.toml").exists()
+    monkeypatch.setattr(simulation_store, "simulate", simulate)
+    capsys.readouterr()
+    assert run(words) == 0
+    rest = capsys.readouterr().out.count("simulation ")
+    whole = tmp_path / "whole"
+    assert run([*words[:-1], whole]) == 0
+    assert capsys.readouterr().out.count("simulation ") == rest + 4
+    for name in ("parameters.toml", "kappas.csv"):
+        assert (whole / name).read_bytes() == (tmp_path / "o" / name).read_bytes()
+
+
+def test_a_simulation_that_stops_is_said_with_exit_code_3(tmp_path, capsys):
+    words = partition_files(tmp_path)
+    words[3].write_text(RIGID.replace("rigid = true", ""))
+    options = ["--set", "solver.newton_iterations_max=1", "--set", "solver.step_mm_min=0.01"]
+    assert run([*words, *options, "--quiet"]) == 3
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.count("\n") == 1
+    assert "p = 0.2 N/mm^2, v = 300 mm/s, kappa = " in printed.err
+    assert "is not converged" in printed.err
+    assert not (tmp_path / "o" / "parameters.toml").exists()
 
 
 def test_the_same_data_give_the_same_bytes(tmp_path):

@@ -8,8 +8,9 @@ from calibration.fit_core import Problem, correlation_of, fit
 X = np.linspace(0.0, 4.0, 60)
 
 
-def line(observed, weights=None, linear=True):
+def line(observed, weights=None, linear=True, absolute=False):
     return Problem(
+        absolute=absolute,
         names=("slope", "offset"),
         predict=lambda t: t[0] * X + t[1],
         jacobian=lambda t: np.stack([X, np.ones_like(X)], axis=1),
@@ -51,6 +52,31 @@ def test_straight_line_matches_the_textbook(linear):
     covariance = -X.mean() * s2 / spread
     assert result.covariance[0, 1] == pytest.approx(covariance, rel=1e-10)
     assert result.r2 == pytest.approx(np.corrcoef(X, y)[0, 1] ** 2, rel=1e-12)
+
+
+def test_known_deviations_alone_decide_the_uncertainty():
+    y = 2.0 * X - 1.0 + noise(0.1)
+    known = line(y, np.full(X.size, 1.0 / 0.3), absolute=True)
+    result = fit(known, np.zeros((1, 2)))
+    spread = np.sum((X - X.mean()) ** 2)
+    assert result.stderr["slope"] == pytest.approx(0.3 / np.sqrt(spread), rel=1e-10)
+    low, high = result.interval(0.95)["slope"]
+    assert high - low == pytest.approx(2 * 1.959964 * result.stderr["slope"], rel=1e-6)
+    assert result.profile("slope") == pytest.approx((low, high), rel=1e-6)
+
+
+def test_known_deviations_give_errors_to_as_many_points_as_parameters():
+    two = Problem(
+        names=("slope", "offset"),
+        predict=lambda t: t[0] * X[:2] + t[1],
+        observed=np.array([1.0, 3.0]),
+        weights=np.full(2, 2.0),
+        lower=np.full(2, -np.inf),
+        upper=np.full(2, np.inf),
+        absolute=True,
+    )
+    result = fit(two, np.zeros((1, 2)))
+    assert result.stderr["slope"] == pytest.approx(0.5 * np.sqrt(2.0) / X[1], rel=1e-5)
 
 
 def test_student_interval_is_that_of_the_textbook():

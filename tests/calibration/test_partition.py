@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -149,14 +150,29 @@ def test_more_heat_than_there_is_ends_at_the_cap():
     assert found.result.rmse > 10.0
 
 
-def test_a_budget_that_ends_early_is_kept_and_said():
-    case, store = case_of(), MadeUpStore()
-    table = peaks(case, [(p, 300.0) for p in (0.1, 0.3, 0.8)])
-    found = fit_partition(table, case, store, simulations=3)
-    check_budget(store, 3)
-    correction = found.result.metadata["last_correction_K"]
-    said = any("--simulations" in warning for warning in found.result.warnings)
-    assert said == (correction > 0.3)
+def test_one_pressure_below_the_cap_is_said_to_be_too_few():
+    case = case_of()
+    table = peaks(case, [(p, 300.0) for p in (0.05, 0.1, 0.3)])
+    found = fit_partition(table, case, MadeUpStore())
+    assert any("1 pressure with a kappa below the cap" in w for w in found.result.warnings)
+
+
+def test_the_budget_of_simulations_is_kept_and_an_unconfirmed_correction_said():
+    class Fickle(MadeUpStore):
+        """Answers a power law with rises that no prediction expects."""
+
+        def slide(self, case, label):
+            slide = super().slide(case, label)
+            if case.block.rigid or case.heat.partition.law == "constant":
+                return slide
+            return replace(slide, T=slide.T + 2.0 * len(self.cases))
+
+    case, store = case_of(), Fickle()
+    table = peaks(case, [(p, 300.0) for p in PRESSURES])
+    found = fit_partition(table, case, store, simulations=4)
+    check_budget(store, 4)
+    assert found.discrete["simulations"].to_list() == [4, 4, 4]
+    assert any("allow more with --simulations" in w for w in found.result.warnings)
     with pytest.raises(ValueError, match="expected at least 3"):
         fit_partition(table, case, store, simulations=2)
 
