@@ -1,6 +1,7 @@
 """From measured tables to a simulation: fitted parameter files go straight into a run."""
 
 import json
+import tomllib
 
 import pytest
 
@@ -63,3 +64,40 @@ def test_three_calibrations_feed_one_run(tmp_path):
     resolved = (tmp_path / "run" / "case.toml").read_text()
     assert 'model = "yeoh"' in resolved
     assert "C10_N_per_mm2 = 0.37" in resolved
+
+
+def test_a_fitted_heat_partition_goes_straight_into_a_run(tmp_path, capsys):
+    block = """
+        [block]
+        mesh = "coarse"
+        rigid = true
+        [loading]
+        mean_pressure_N_per_mm2 = 0.3
+        velocity_mm_per_s = 300.0
+        distance_mm = 1.0
+        [output]
+        vtu = false
+        figures = false
+        """
+    (tmp_path / "block.toml").write_text(block)
+    data, T_max = tmp_path / "slides.csv", {}
+    for p in (0.2, 0.3, 0.4):
+        words = ["--set", f"loading.mean_pressure_N_per_mm2={p}", "-o", str(tmp_path / f"{p}")]
+        assert treadfem.main(["run", str(tmp_path / "block.toml"), *words, "--quiet"]) == 0
+        T_max[p] = json.loads((tmp_path / f"{p}" / "summary.json").read_text())["T_max_C"]
+    rows = "".join(f"{p},300,{T}\n" for p, T in T_max.items())
+    data.write_text("mean_pressure_N_per_mm2,v_mm_per_s,T_max_C\n" + rows)
+
+    words = [str(data), "--case", str(tmp_path / "block.toml"), "-o", str(tmp_path / "heat")]
+    assert treadfem.main(["calibrate", "partition", *words, "--quiet"]) == 0
+    fitted = tomllib.loads((tmp_path / "heat" / "parameters.toml").read_text())["heat"]
+    assert fitted["partition"]["prefactor"] == pytest.approx(0.3146, rel=0.01)
+    assert fitted["partition"]["exponent"] == pytest.approx(-0.6833, rel=0.01)
+
+    case = tmp_path / "case.toml"
+    case.write_text(block + '\n[heat]\nparameters = "heat/parameters.toml"\n')
+    assert treadfem.main(["run", str(case), "-o", str(tmp_path / "run"), "--quiet"]) == 0
+    resolved = tomllib.loads((tmp_path / "run" / "case.toml").read_text())
+    assert resolved["heat"]["partition"] == fitted["partition"]
+    T = json.loads((tmp_path / "run" / "summary.json").read_text())["T_max_C"]
+    assert T == pytest.approx(T_max[0.3], abs=0.05)
