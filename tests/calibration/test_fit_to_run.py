@@ -100,4 +100,4 @@ def test_a_fitted_heat_partition_goes_straight_into_a_run(tmp_path, capsys):
     resolved = tomllib.loads((tmp_path / "run" / "case.toml").read_text())
     assert resolved["heat"]["partition"] == fitted["partition"]
     T = json.loads((tmp_path / "run" / "summary.json").read_text())["T_max_C"]
-    assert T == pytest.approx(T_max[0.3], abs=0.05)
+    assert pytest.approx(T_max[0.3], abs=0.05) == T
