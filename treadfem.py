@@ -68,6 +68,7 @@ def _parser(command: str) -> argparse.ArgumentParser:
     _add_template(commands)
     _add_calibrate(commands, wanted=command == "calibrate")
     _add_sweep(commands)
+    _add_compare(commands)
     _add_figure(commands)
     _add_table(commands)
     _add_export(commands)
@@ -328,6 +329,37 @@ def _terminable() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGTERM, before)
+
+
+# -- compare -----------------------------------------------------------------------------------
+
+
+def _add_compare(commands: Any) -> None:
+    text = "Compare measurements with the results of a sweep or a run."
+    parser = commands.add_parser("compare", help="compare with measurements", description=text)
+    parser.add_argument("measured", metavar="MEASURED.csv", help="profiles, or a row per test")
+    parser.add_argument("results", metavar="RESULTS_DIR", help="folder of a sweep or a run")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        default="results/comparison",
+        help="folder of tables and pictures (default: results/comparison)",
+    )
+    parser.set_defaults(command=_compare)
+
+
+def _compare(arguments: argparse.Namespace) -> int:
+    from calibration.errors import DataError
+    from validation.compare_command import write_comparison
+
+    _check_writable(Path(arguments.output))
+    try:
+        print(write_comparison(arguments.measured, arguments.results, arguments.output))
+    except DataError as error:
+        print(f"treadfem: {error}", file=sys.stderr)
+        return BAD_INPUT
+    return DONE
 
 
 # -- check, template ---------------------------------------------------------------------------

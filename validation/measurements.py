@@ -1,0 +1,208 @@
+"""Measurements of a sliding block, read from CSV: temperature profiles, or one row per test.
+
+T_max and A_T of a measured profile come from the functions that the simulation uses, so that both
+are judged by the same rule.
+
+Files with a column ``x_mm`` hold profiles, a row per point: ``run, x_mm, T_C``, with ``x_mm`` from
+the trailing to the leading corner. Others hold a row per test with at least one of ``T_max_C,
+A_T_K_mm, friction_coefficient``. Both may say under which conditions: ``p_N_per_mm2`` (mean contact
+pressure), ``mean_pressure_N_per_mm2`` (on top of the block), ``v_mm_per_s``, ``compound``, ``law``,
+and ``T_0_C``, the temperature before the sliding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from calibration.tables import ABSOLUTE_ZERO_C, Table, read_table
+from fem.surface_profile import excess_area, interior_peak
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+#: What is compared, with its unit.
+QUANTITIES = {"T_max_C": "°C", "A_T_K_mm": "K mm", "friction_coefficient": "-"}
+#: Temperature before the sliding where the file does not state it [deg C].
+START_C = 20.0
+LAWS = ("huemer", "exponential", "coulomb")
+
+_POSITIVE: tuple[Callable[[FloatArray], BoolArray], str] = (lambda x: x > 0.0, "a number above 0")
+_CELSIUS: tuple[Callable[[FloatArray], BoolArray], str] = (
+    lambda x: x > ABSOLUTE_ZERO_C,
+    f"a temperature above {ABSOLUTE_ZERO_C} °C",
+)
+_ANY: tuple[Callable[[FloatArray], BoolArray], str] = (np.isfinite, "a finite number")
+#: Columns of numbers that a test has one value of, and what they may be.
+_NUMBERS = {
+    "p_N_per_mm2": _POSITIVE,
+    "mean_pressure_N_per_mm2": _POSITIVE,
+    "v_mm_per_s": _POSITIVE,
+    "T_0_C": _CELSIUS,
+    "T_max_C": _CELSIUS,
+    "A_T_K_mm": _ANY,
+    "friction_coefficient": _POSITIVE,
+}
+_WORDS = ("run", "compound", "law")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Profile:
+    """A measured temperature profile of the bottom surface.
+
+    Attributes
+    ----------
+    run : str
+        Name of the test.
+    X_mm : (n,) array
+        Position from the trailing to the leading corner [mm].
+    T_C : (n,) array
+        Temperature [deg C].
+    """
+
+    run: str
+    X_mm: FloatArray
+    T_C: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measurements:
+    """What a file of measurements holds.
+
+    Attributes
+    ----------
+    points : DataFrame
+        A row per test: `run, compound, law` (empty where not stated), the conditions and
+        `QUANTITIES` (NaN where not stated), `row` in the file.
+    profiles : list of Profile
+        In the order of `points`; empty for a file without profiles.
+    file : str
+        Name of the file.
+    """
+
+    points: pd.DataFrame
+    profiles: list[Profile]
+    file: str
+
+
+def read_measurements(source: str | Path | pd.DataFrame) -> Measurements:
+    """Read a file of measurements.
+
+    Raises
+    ------
+    DataError
+        With file, row, column, what was found and what was expected, in one line.
+    """
+    table = read_table(source, ())
+    return _profiles(table) if table.has("x_mm") else _points(table)
+
+
+def _points(table: Table) -> Measurements:
+    if not any(table.has(quantity) for quantity in QUANTITIES):
+        # `require` says what the columns are; the first quantity stands for all.
+        expected = f"x_mm and T_C (profiles), or one of {', '.join(QUANTITIES)}"
+        found = f"the columns {', '.join(map(str, table.frame.columns))}"
+        table.refuse(found=found, expected=expected)
+    points = _conditions(table)
+    measured = points[list(QUANTITIES)].notna().to_numpy().any(axis=1)
+    if not measured.all():
+        index = int(np.argmin(measured))
+        column = next(quantity for quantity in QUANTITIES if table.has(quantity))
+        table.refuse_at(index, column, "nothing", f"at least one of {', '.join(QUANTITIES)}")
+    unnamed = points["run"] == ""
+    points.loc[unnamed, "run"] = [f"row {row}" for row in points.loc[unnamed, "row"]]
+    return Measurements(points=points, profiles=[], file=table.file)
+
+
+def _profiles(table: Table) -> Measurements:
+    table.require(("run", "x_mm", "T_C"))
+    for column in ("T_max_C", "A_T_K_mm"):
+        if table.has(column):
+            found = f"{column} beside a profile"
+            table.refuse(column=column, found=found, expected="it to be computed from the profile")
+    T = table.numbers("T_C")
+    table.require_all("T_C", _CELSIUS[0](T), _CELSIUS[1])
+    X = table.numbers("x_mm")
+    rows = _conditions(table)
+    if (rows["run"] == "").any():
+        table.refuse_at(int(np.argmax(rows["run"] == "")), "run", "nothing", "the name of the test")
+    points, profiles = [], []
+    for run, own in rows.groupby("run", sort=False):
+        index = own.index.to_numpy()
+        _check_profile(table, index, X[index], own)
+        profile = Profile(run=str(run), X_mm=X[index], T_C=T[index])
+        profiles.append(profile)
+        points.append(own.iloc[0].to_dict() | evaluated(profile, float(own["T_0_C"].iloc[0])))
+    return Measurements(points=pd.DataFrame(points), profiles=profiles, file=table.file)
+
+
+def evaluated(profile: Profile, T_0_C: float = START_C) -> dict[str, float]:
+    """T_max and A_T of a profile, by the rules of the simulation (`fem.surface_profile`)."""
+    return {
+        "T_max_C": interior_peak(profile.X_mm, profile.T_C).T_max_C,
+        "A_T_K_mm": excess_area(profile.X_mm, profile.T_C, T_0_C),
+    }
+
+
+def _check_profile(
+    table: Table, index: NDArray[np.int64], X: FloatArray, own: pd.DataFrame
+) -> None:
+    run = own["run"].iloc[0]
+    if len(index) < 2:
+        table.refuse_at(int(index[0]), "x_mm", f"1 point of run {run}", "at least 2 points")
+    falling = np.flatnonzero(np.diff(X) <= 0.0)
+    if falling.size:
+        at = int(falling[0])
+        table.refuse_at(
+            int(index[at + 1]),
+            "x_mm",
+            f"{X[at + 1]:g} after {X[at]:g} in run {run}",
+            "x_mm to increase from the trailing to the leading corner",
+        )
+    for column in own.columns.drop("row"):
+        values = own[column]
+        differs = ~((values == values.iloc[0]) | (values.isna() & values.isna().iloc[0]))
+        if differs.any():
+            at = int(np.argmax(differs))
+            found = f"{values.iloc[at]} after {values.iloc[0]} in run {run}"
+            table.refuse_at(int(index[at]), column, found, "one value per run")
+
+
+def _conditions(table: Table) -> pd.DataFrame:
+    """Every known column, checked; what the file does not state is empty or NaN."""
+    columns: dict[str, object] = {
+        name: table.frame[name].fillna("").astype(str).str.strip() if table.has(name) else ""
+        for name in _WORDS
+    }
+    frame = pd.DataFrame(columns, index=range(len(table)))
+    unknown = ~frame["law"].isin(("", *LAWS)).to_numpy()
+    if unknown.any():
+        index = int(np.argmax(unknown))
+        expected = f"one of {', '.join(LAWS)} or nothing"
+        table.refuse_at(index, "law", repr(frame["law"].iloc[index]), expected)
+    for name, (valid, expected) in _NUMBERS.items():
+        frame[name] = _optional_numbers(table, name, valid, expected)
+    frame["T_0_C"] = frame["T_0_C"].fillna(START_C)
+    frame["row"] = table.rows
+    return frame
+
+
+def _optional_numbers(
+    table: Table, column: str, valid: Callable[[FloatArray], BoolArray], expected: str
+) -> FloatArray:
+    """Values of a column, NaN where the entry is empty or there is no such column."""
+    values = np.full(len(table), np.nan)
+    if table.has(column):
+        entries = table.frame[column]
+        stated = (entries.notna() & (entries.astype(str).str.strip() != "")).to_numpy()
+        if stated.any():
+            own = table.select(stated)
+            numbers = own.numbers(column)
+            own.require_all(column, np.asarray(valid(numbers)), expected)
+            values[stated] = numbers
+    return values
