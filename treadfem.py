@@ -417,6 +417,9 @@ _PAPER = "results/figures"
 
 def _add_figure(commands: Any) -> None:
     parser = _add_numbered(commands, "figure")
+    parser.add_argument(
+        "--measured", metavar="FILE.csv", help="measurements to draw into figures 11 and 12"
+    )
     parser.set_defaults(command=_figure)
 
 
@@ -441,11 +444,27 @@ def _add_numbered(commands: Any, what: str) -> argparse.ArgumentParser:
 
 
 def _figure(arguments: argparse.Namespace) -> int:
-    from validation.figures import FIGURES, make_figure
+    from calibration.errors import DataError
+    from validation.figures import FIGURES, MEASURABLE, make_figure
+    from validation.measurements import read_measurements
 
     numbers = _numbers("figure", arguments, list(FIGURES))
+    measured = None
+    if arguments.measured is not None:
+        try:
+            measured = read_measurements(arguments.measured)
+        except DataError as error:
+            print(f"treadfem: {error}", file=sys.stderr)
+            return BAD_INPUT
+        if not set(numbers) & set(MEASURABLE):
+            raise CaseError(
+                file="figure",
+                key="--measured",
+                found=f"figure {arguments.number}",
+                expected="a figure that shows measurements: 11, 12 or all",
+            )
     for number in numbers:
-        print(make_figure(number, arguments.output))
+        print(make_figure(number, arguments.output, measured))
     if arguments.number == "all":
         print("figures 1 and 5 of the paper are a sketch and photographs")
     return DONE

@@ -41,9 +41,7 @@ def draw_comparison(comparison: Comparison) -> Figure:
         for i, variant in enumerate(variants):
             part = own[own["variant"] == variant]
             look = {"marker": MARKERS[i % len(MARKERS)], "color": CURVES[i % len(CURVES)]}
-            axes.plot(
-                part["measured"], part["simulated"], ls="", mfc="white", label=variant, **look
-            )
+            axes.plot(part["measured"], part["simulated"], ls="", mfc="none", label=variant, **look)
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2)
     return figure

@@ -11,6 +11,8 @@ from matplotlib.lines import Line2D
 
 from validation.compound_names import COMPOUND_LOOKS
 from validation.fig11 import LAW_LABELS, LAW_LOOKS
+from validation.measured_points import MEASURED_MARK, draw_measured_points
+from validation.measurements import Measurements
 from validation.study import STUDIES, StudyRun, study_runs
 from validation.style import BLACK, PAGE_WIDTH, new_figure, save, styled
 
@@ -31,11 +33,14 @@ RESULTS = (
 QUANTITIES = {"T_max_C": r"$T_{max}$ [°C]", "A_T_K_mm": "$A_T$ [K mm]"}
 
 
-def make(directory: Path) -> Path:
-    """Draw figure 12 from the study of pressures and write the points beside it."""
+def make(directory: Path, measured: Measurements | None = None) -> Path:
+    """Draw figure 12 from the study of pressures and write the points beside it.
+
+    Measured points are drawn into the panel of their velocity.
+    """
     table = point_table(study_runs(STUDIES / "pressures.toml", directory))
     table.to_csv(directory / "fig12.csv", index=False, lineterminator="\n")
-    return save(draw(table), directory / "fig12.png")
+    return save(draw(table, measured), directory / "fig12.png")
 
 
 def point_table(runs: list[StudyRun]) -> pd.DataFrame:
@@ -50,9 +55,10 @@ def point_table(runs: list[StudyRun]) -> pd.DataFrame:
 
 
 @styled
-def draw(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame, measured: Measurements | None = None) -> Figure:
     """Draw T_max in the upper and A_T in the lower row, a column per velocity.
 
+    Measured points are black and filled, their marker says the compound where it is stated.
     Runs that did not get to their end are in the table only.
     """
     table = table[table["status"] == "ok"]
@@ -62,13 +68,15 @@ def draw(table: pd.DataFrame) -> Figure:
     for row, (quantity, label) in zip(panels, QUANTITIES.items(), strict=True):
         for axes, velocity in zip(row, velocities, strict=True):
             _draw_points(axes, table[table["velocity_mm_per_s"] == velocity], quantity)
+            draw_measured_points(axes, measured, velocity, quantity)
             axes.grid(True)
         row[0].set_ylabel(label)
     for axes, velocity in zip(panels[0], velocities, strict=True):
         axes.set_title(f"$v$ = {velocity:g} mm/s")
     for axes in panels[1]:
         axes.set_xlabel("mean contact pressure [N/mm²]")
-    figure.legend(handles=_legend(table), loc="outside lower center", ncols=2)
+    marks = [] if measured is None else [MEASURED_MARK]
+    figure.legend(handles=[*_legend(table), *marks], loc="outside lower center", ncols=2)
     return figure
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from validation import fig2, fig3, fig4, fig6, fig7, fig8, fig9, fig10, fig11, fig12
+from validation.measurements import Measurements
 
 #: Number of the figure to the function that draws it into a folder and returns the picture's path.
 #: Figures 1 and 5 of the paper are a sketch and photographs.
@@ -22,8 +23,11 @@ FIGURES: dict[int, Callable[[Path], Path]] = {
     12: fig12.make,
 }
 
+#: Figures that show measurements beside the simulation.
+MEASURABLE: dict[int, Callable[[Path, Measurements], Path]] = {11: fig11.make, 12: fig12.make}
 
-def make_figure(number: int, directory: str | Path) -> Path:
+
+def make_figure(number: int, directory: str | Path, measured: Measurements | None = None) -> Path:
     """Draw a figure of the paper, with a CSV of what it shows beside it.
 
     Parameters
@@ -32,6 +36,8 @@ def make_figure(number: int, directory: str | Path) -> Path:
         One of `FIGURES`.
     directory : str or Path
         Folder of the picture; made if it does not exist.
+    measured : Measurements, optional
+        Drawn into those of `MEASURABLE`.
 
     Returns
     -------
@@ -43,4 +49,6 @@ def make_figure(number: int, directory: str | Path) -> Path:
         raise ValueError(f"figure {number} is not among those that can be made: {known}")
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
+    if measured is not None and number in MEASURABLE:
+        return MEASURABLE[number](folder, measured)
     return FIGURES[number](folder)
