@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 from calibration.fit_core import FitResult, Problem, fit
 from calibration.partition_data import Condition, PartitionData, ProfileUse, read_partition_data
 from calibration.partition_slides import (
+    SMALLEST,
     Conditioned,
     PartitionModel,
     Simulated,
@@ -44,6 +45,7 @@ from calibration.provenance import version
 from calibration.simulation_store import SimulationStore
 from contact.partition import HeatPartition
 from fem.case import Case
+from fem.case_errors import CaseError
 
 Array = NDArray[np.float64]
 
@@ -123,6 +125,7 @@ def fit_partition(
     """
     if simulations < 3:
         raise ValueError(f"{simulations} simulations per condition; expected at least 3")
+    _check_case(case)
     data = read_partition_data(source, case, profile=profile)
     model = PartitionModel(case, store)
     found: list[Simulated] = []
@@ -137,6 +140,19 @@ def fit_partition(
         discrete=_table(found, slides, result),
         simulated=store.simulated,
     )
+
+
+def _check_case(case: Case) -> None:
+    """Refuse a case whose block cannot warm up, whatever the partition."""
+    if case.heat.partition.cap < SMALLEST:
+        raise CaseError(
+            file=case.source, key="heat.partition.cap", found=f"{case.heat.partition.cap:g}",
+            expected=f"at least {SMALLEST:g}, a share of the friction power to identify",
+        )  # fmt: skip
+    if case.friction.law == "coulomb" and case.friction.mu == 0.0:
+        raise CaseError(
+            file=case.source, key="friction.mu", found="0", expected="friction, which makes heat"
+        )
 
 
 # -- discrete estimates ------------------------------------------------------------------------

@@ -222,7 +222,7 @@ class PartitionModel:
 
     def clipped(self, kappa: float) -> float:
         """The partition inside what can be simulated, with the digits that matter."""
-        return _rounded(float(np.clip(kappa, min(SMALLEST, self.cap), self.cap)))
+        return _rounded(float(np.clip(kappa, SMALLEST, self.cap)))
 
     def rigid_estimate(self, condition: Condition) -> RigidEstimate:
         """Partition of a rigid block with the stated pressure, from two of them."""

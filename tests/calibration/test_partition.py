@@ -177,6 +177,17 @@ def test_the_budget_of_simulations_is_kept_and_an_unconfirmed_correction_said():
         fit_partition(table, case, store, simulations=2)
 
 
+@pytest.mark.parametrize(
+    "keys", [{"heat.partition.cap": 0.0}, {"friction.law": "coulomb", "friction.mu": 0.0}]
+)
+def test_a_block_that_cannot_warm_up_is_refused(keys):
+    case, store = case_of(), MadeUpStore()
+    table = peaks(case, [(p, 300.0) for p in PRESSURES])
+    with pytest.raises(ValueError, match=rf"^case: {list(keys)[-1]}: found 0, expected"):
+        fit_partition(table, case.with_overrides(keys), store)
+    assert not store.cases
+
+
 def test_second_call_makes_no_simulation(tmp_path):
     case = case_of(rigid=True, distance_mm=2.0)
     rows = [
