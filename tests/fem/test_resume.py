@@ -115,6 +115,23 @@ def test_a_long_coarse_run_is_resumed_from_each_of_its_checkpoints(tmp_path):
         assert_same(simulate(case, checkpoint=file, resume=True), reference)
 
 
+@pytest.mark.slow
+def test_a_rolled_under_block_that_touches_itself_is_resumed(tmp_path):
+    hard = {"loading.mean_pressure_N_per_mm2": 0.5, "friction.mu": 1.2, "friction.wlf": False}
+    case = case_of({"mesh": "coarse"}, 40.0, "coulomb").with_overrides(hard)
+    reference, files = uninterrupted(case, tmp_path)
+    touching = np.flatnonzero(reference.history["self_contact_penetration"] > 0.0)
+    for number in (touching[0], touching[len(touching) // 2]):
+        assert_same(simulate(case, checkpoint=files[number], resume=True), reference)
+
+
+def test_a_run_with_pardiso_is_resumed(tmp_path):
+    pytest.importorskip("pypardiso")
+    case = case_of({"mesh": SMALL}, 1.0, linear_solver="pardiso")
+    reference, files = uninterrupted(case, tmp_path)
+    assert_same(simulate(case, checkpoint=files[4], resume=True), reference)
+
+
 def test_a_run_interrupted_again_and_again_equals_the_uninterrupted_one(run, tmp_path):
     case, reference, _ = run
     path = tmp_path / CHECKPOINT_FILE
