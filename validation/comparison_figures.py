@@ -34,7 +34,7 @@ def draw_comparison(comparison: Comparison) -> Figure:
     figure = new_figure(PAGE_WIDTH, height)
     panels = figure.subplots(1, _COLUMNS, squeeze=False)[0]
     for axes in panels[len(quantities) :]:
-        axes.set_visible(False)
+        axes.remove()
     for axes, quantity in zip(panels, quantities, strict=False):
         own = table[table["quantity"] == quantity]
         _draw_agreement(axes, own, quantity)
@@ -78,7 +78,7 @@ def draw_profiles(measurements: Measurements, runs: pd.DataFrame) -> Figure:
     figure = new_figure(PAGE_WIDTH, 22.0 + 52.0 * lines)
     panels = figure.subplots(lines, _COLUMNS, squeeze=False)
     for axes in panels.flat[len(shown) :]:
-        axes.set_visible(False)
+        axes.remove()
     variants = list(dict.fromkeys(runs["variant"]))
     legend: dict[str, Any] = {}
     for axes, (profile, found) in zip(panels.flat, shown, strict=False):
