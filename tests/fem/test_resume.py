@@ -17,7 +17,7 @@ SMALL = {"cells_x": 24, "cells_y": 8, "smallest_x_mm": 0.4, "smallest_y_mm": 0.3
 TIMES = ("wall_s", "solver_s")
 
 
-def case_of(block, distance, friction="huemer", **solver):
+def case_of(block, distance, **solver):
     loading = {
         "mean_pressure_N_per_mm2": 0.25,
         "velocity_mm_per_s": 300.0,
@@ -28,7 +28,6 @@ def case_of(block, distance, friction="huemer", **solver):
         {
             "loading": loading,
             "block": block,
-            "friction": {"law": friction},
             "solver": solver,
             "output": output,
         }
@@ -117,8 +116,9 @@ def test_a_long_coarse_run_is_resumed_from_each_of_its_checkpoints(tmp_path):
 
 @pytest.mark.slow
 def test_a_rolled_under_block_that_touches_itself_is_resumed(tmp_path):
-    hard = {"loading.mean_pressure_N_per_mm2": 0.5, "friction.mu": 1.2, "friction.wlf": False}
-    case = case_of({"mesh": "coarse"}, 40.0, "coulomb").with_overrides(hard)
+    coulomb = {"friction.law": "coulomb", "friction.mu": 1.2, "friction.wlf": False}
+    hard = {"loading.mean_pressure_N_per_mm2": 0.5, **coulomb}
+    case = case_of({"mesh": "coarse"}, 40.0).with_overrides(hard)
     reference, files = uninterrupted(case, tmp_path)
     touching = np.flatnonzero(reference.history["self_contact_penetration"] > 0.0)
     for number in (touching[0], touching[len(touching) // 2]):
