@@ -385,14 +385,19 @@ def _add_template(commands: Any) -> None:
     parser = commands.add_parser(
         "template",
         help="print a commented file to start from",
-        description="Print a commented case file that runs as it is.",
+        description="Print a commented case or study file that runs as it is.",
     )
-    parser.add_argument("kind", nargs="?", choices=["case"], default="case")
+    parser.add_argument("kind", nargs="?", choices=["case", "study"], default="case")
     parser.set_defaults(command=_template)
 
 
 def _template(arguments: argparse.Namespace) -> int:
-    sys.stdout.write(case_template())
+    if arguments.kind == "study":
+        from validation.study_template import study_template
+
+        sys.stdout.write(study_template())
+    else:
+        sys.stdout.write(case_template())
     return DONE
 
 

@@ -1,8 +1,9 @@
 """Study files: a base case and a grid of keys, and the runs they stand for.
 
-A study file is TOML: ``base = "case.toml"``, a table ``[grid]`` of dotted case keys to lists (the
-full product is run) and optionally tables ``[[case]]`` of dotted keys to single values, each
-combined with the whole grid. ``[names]`` may give short names to long keys for the folders.
+A study file is TOML: ``base = "case.toml"`` (or ``"introductory"``, the paper's example), a table
+``[grid]`` of dotted case keys to lists (the full product is run) and optionally tables ``[[case]]``
+of dotted keys to single values, each combined with the whole grid. ``[names]`` may give short names
+to long keys for the folders.
 """
 
 from __future__ import annotations
@@ -25,6 +26,8 @@ from fem.simulate import simulate
 
 #: The study files of the paper's figures.
 STUDIES = Path(__file__).parent / "studies"
+#: Stands for the paper's introductory example where a study names its base case.
+INTRODUCTORY = "introductory"
 _LONGEST_NAME = 120
 _KEYS = ("base", "grid", "case", "names")
 
@@ -92,7 +95,7 @@ def read_study(path: str | Path) -> list[StudyCase]:
         StudyCase(
             name=_folder_name(overrides, names),
             overrides=overrides,
-            case=Case.from_toml(path.parent / base, overrides),
+            case=Case.from_toml(_base_path(path, base), overrides),
         )
         for overrides in _combinations(path, tables)
     ]
@@ -132,6 +135,10 @@ def holds(folder: Path, case: Case) -> bool:
 def summary_table(runs: list[StudyRun]) -> pd.DataFrame:
     """One row per run: the grid's columns, then the summary."""
     return pd.DataFrame([run.study_case.overrides | run.result.summary for run in runs])
+
+
+def _base_path(study: Path, base: str) -> Path:
+    return STUDIES / "introductory.toml" if base == INTRODUCTORY else study.parent / base
 
 
 def _combinations(path: Path, tables: Mapping[str, Any]) -> Iterator[dict[str, Any]]:

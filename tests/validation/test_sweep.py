@@ -147,6 +147,15 @@ def test_rows_appear_as_cases_finish(study, simulation):
 # -- failures --------------------------------------------------------------------------------------
 
 
+def test_template_of_a_study_runs_as_it_is(tmp_path, monkeypatch, simulation, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert treadfem.main(["template", "study"]) == 0
+    Path("study.toml").write_text(capsys.readouterr().out)
+    assert treadfem.main(["sweep", "study.toml", "-o", "out", "--workers", "1"]) == 0
+    assert rows()[0]["case"].startswith("v_50.0__law_huemer")
+    assert len(rows()) == 4
+
+
 def test_case_that_raises_is_a_row_and_does_not_stop_the_others(study, simulation, capsys):
     simulation.faults[50.0] = ValueError("no\nway")
     assert treadfem.main(["sweep", str(study), "-o", "out", "--workers", "1"]) == 3
