@@ -126,7 +126,7 @@ class Solver(Section):
         1e-8, description="residual of the balance of forces relative to the load [-]"
     )
     step_mm_initial: Positive = Field(0.02, description="first sliding step [mm]")
-    step_mm_max: Positive = Field(1.0, description="longest sliding step [mm]")
+    step_mm_max: Positive = Field(2.0, description="longest sliding step [mm]")
     step_mm_min: Positive = Field(1e-5, description="shortest sliding step before giving up [mm]")
     newton_iterations_max: Count = Field(25, description="Newton iterations per step at most [-]")
     friction_passes: Count = Field(
@@ -134,8 +134,14 @@ class Solver(Section):
     )
     inertia: bool = Field(True, description="backward-Euler inertia of the rubber")
     viscous_distance_mm: NotNegative = Field(
-        30.0,
-        description="Kelvin-Voigt regularisation: relaxation time times velocity [mm]; 0 is off",
+        5.0,
+        description="Kelvin-Voigt regularisation: relaxation time times velocity [mm]; 0: none",
+    )
+    edge_viscous_distance_mm: NotNegative = Field(
+        100.0, description="the same, added at the leading corner [mm]"
+    )
+    edge_radius_mm: Positive = Field(
+        2.0, description="distance from the leading corner over which that fades [mm]"
     )
     self_contact: bool = Field(True, description="contact of the block's surface with itself")
     heat_step_mm: Positive = Field(0.5, description="longest sliding distance per heat step [mm]")

@@ -75,13 +75,13 @@ class Viscosity:
 
     Attributes
     ----------
-    rate : float
+    rate : float or (ne, 1) float array
         eta/dt [N/mm^2].
     strain_n : tuple of (ne, 4) arrays
         E11, E22, E12 at the last accepted step.
     """
 
-    rate: float
+    rate: float | FloatArray
     strain_n: tuple[FloatArray, FloatArray, FloatArray]
 
     def stress(self, kinematics: Kinematics) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -124,7 +124,7 @@ class BlockMechanics:
         Element kernel on that mesh.
     density : float
         Mass density [t/mm^3]; zero for quasi-static steps.
-    viscosity : float
+    viscosity : float or (ne, 1) float array
         Kelvin-Voigt viscosity eta [N s/mm^2]; zero for none.
     top : {"platen", "pressure"}
         Rigid platen, or free uniform pressure with fixed horizontal displacement.
@@ -138,13 +138,13 @@ class BlockMechanics:
         elements: Q1P0Elements,
         *,
         density: float = 0.0,
-        viscosity: float = 0.0,
+        viscosity: float | FloatArray = 0.0,
         top: Literal["platen", "pressure"] = "platen",
         tolerance: float = 1e-8,
         solver: LinearSolver | None = None,
     ) -> None:
         self.mesh, self.elements, self.top = mesh, elements, top
-        self.viscosity, self.tolerance = viscosity, tolerance
+        self.viscosity, self.tolerance = np.asarray(viscosity, dtype=float), tolerance
         self.solver: LinearSolver = solver or SuperLUSolver()
         n = len(mesh.points)
         self.mass = np.bincount(
@@ -250,7 +250,7 @@ class StepProblem:
         self.system, self.state, self.load = system, state, load
         elements = system.elements
         self.viscosity: Viscosity | None = None
-        if system.viscosity > 0.0:
+        if np.any(system.viscosity > 0.0):
             strain_n = elements.kinematics(state.u).green_lagrange
             self.viscosity = Viscosity(rate=system.viscosity / load.dt, strain_n=strain_n)
         self.frame = np.array([load.sweep / load.dt, 0.0])

@@ -13,7 +13,7 @@ INTERRUPTED = "interrupted"
 ADVICE = {
     Failure.ITERATIONS: (
         "a finer mesh at the leading edge, a smaller [solver] step_mm_max, or a larger "
-        "viscous_distance_mm often helps"
+        "edge_viscous_distance_mm often helps"
     ),
     Failure.INADMISSIBLE: (
         "the rubber is strained beyond what its model or mesh can follow: check the pressure and "
@@ -24,8 +24,8 @@ ADVICE = {
         "pressure"
     ),
     Failure.CYCLING: (
-        "the leading edge snaps; a larger [solver] viscous_distance_mm carries it through more "
-        "gently, a finer mesh in smaller steps"
+        "the leading edge snaps; a larger [solver] edge_viscous_distance_mm carries it through "
+        "more gently, a finer mesh in smaller steps"
     ),
     Failure.DIVERGED: "use smaller steps ([solver] step_mm_max) or a finer mesh",
 }

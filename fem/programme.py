@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem.case import Case
+from fem.regularisation import relaxation_time
 
 #: Duration of the pressing phase [s] without viscosity, and with it in relaxation times.
 PRESSING_TIME = 0.05
@@ -50,14 +51,6 @@ class Phase:
     step_min: float
     target: Callable[[float, float], Target]
     slides: bool
-
-
-def relaxation_time(case: Case) -> float:
-    """Kelvin-Voigt relaxation time of the regularisation [s].
-
-    Stated as a sliding distance in the case, so that it acts alike at all velocities.
-    """
-    return case.solver.viscous_distance_mm / abs(case.loading.velocity_mm_per_s)
 
 
 def sliding_time(distance: float, speed: float) -> float:

@@ -22,8 +22,9 @@ from fem.mechanics import BlockMechanics
 from fem.mesh import BlockMesh
 from fem.model_parts import Progress, mesh_of
 from fem.outcome import INTERRUPTED, OK, Outcome, failed
-from fem.programme import Phase, programme, relaxation_time
+from fem.programme import Phase, programme
 from fem.recorder import Recorder
+from fem.regularisation import viscosity
 from fem.results import Result
 from fem.rigid_run import simulate_rigid
 from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
@@ -43,7 +44,7 @@ def coupled_model(case: Case) -> CoupledModel:
         mesh,
         Q1P0Elements(mesh, rubber, case.rubber.bulk_modulus),
         density=case.rubber.thermal.density if solver.inertia else 0.0,
-        viscosity=relaxation_time(case) * rubber.initial_shear_modulus,
+        viscosity=viscosity(case, mesh),
         top=case.loading.top,
         tolerance=solver.tolerance * force,
         solver=linear_solver(solver.linear_solver),
