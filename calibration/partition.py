@@ -46,6 +46,7 @@ from calibration.simulation_store import SimulationStore
 from contact.partition import HeatPartition
 from fem.case import Case
 from fem.case_errors import CaseError
+from fem.program_version import program_version
 
 Array = NDArray[np.float64]
 
@@ -267,6 +268,7 @@ def _completed(
         "standard_errors_from": "sigma of the data" if data.has_sigma else "scatter about the fit",
         "last_correction_K": correction,
         "version": version(),
+        "simulated_by": program_version(),
     }
     partition = {
         "law": "power",
