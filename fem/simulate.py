@@ -282,6 +282,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "capped_heat_share": run.audit.capped_share,
         "rejected_steps": run.rejected,
         "friction_lag_error": largest(history, "friction_lag_error"),
+        "largest_self_penetration": largest(history, "self_contact_penetration"),
         "min_J": run.recorder.smallest_J,
         "solver_s": mechanics.solver.seconds,
     }
