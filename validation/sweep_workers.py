@@ -178,8 +178,9 @@ def _local_cluster(workers: int) -> Iterator[Any]:
             n_workers=workers,
             threads_per_worker=1,
             processes=True,
-            # The dashboard needs a port and more packages; memory is the system's matter.
-            dashboard_address=None,
+            # dask serves its state over HTTP; any port does, and only for this machine.
+            dashboard_address="127.0.0.1:0",
+            # Memory is the system's matter.
             memory_limit=0,
             silence_logs=logging.CRITICAL,
             env=_ONE_THREAD,
