@@ -22,6 +22,7 @@ from validation.comparison_figures import draw_comparison, draw_profiles
 from validation.measurements import read_measurements
 from validation.study import StudyRun
 
+ROOT = Path(__file__).parents[2]
 YEOH, VDW = "yeoh-bars-series-1-load", "van-der-waals-bars-series-1"
 
 
@@ -219,6 +220,15 @@ def test_command_writes_tables_and_pictures_and_prints_the_statistics(results, t
     }
     points = pd.read_csv(tmp_path / "out/measured.csv")
     assert points["T_max_C"][0] == pytest.approx(read_measurements(path).points["T_max_C"][0])
+
+
+@pytest.mark.parametrize("name", ["profiles", "tests"])
+def test_synthetic_examples_can_be_compared(name, results, tmp_path, capsys):
+    example = ROOT / "examples" / "measurements" / f"synthetic_{name}.csv"
+    words = ["compare", str(example), str(results), "-o", str(tmp_path / "out")]
+    assert treadfem.main(words) == 0
+    # The made-up results have one velocity only.
+    assert "without a simulation" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
