@@ -4,7 +4,8 @@ The relaxation time is stated as a sliding distance, so that it acts alike at al
 of it sits at the leading corner: there the surface folds in small snaps, which need damping to be
 followed with large steps. The bulk has a short relaxation distance, so that the block as a whole
 takes up its deformation as it would without. In steady sliding no strain changes and the viscosity
-does nothing; its work is audited (`regularisation_share`).
+does nothing; its work is audited: `regularisation_share` in the second half of the slide,
+`regularisation_share_with_onset` over all of it.
 """
 
 from __future__ import annotations

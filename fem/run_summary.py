@@ -32,3 +32,18 @@ def sliding_means(history: pd.DataFrame, velocity: float) -> dict[str, float]:
     if chosen.empty:
         return {c: float(history[c].iloc[-1]) for c in columns}
     return {c: float(np.average(chosen[c], weights=weight)) for c in columns}
+
+
+def steady_share(history: pd.DataFrame, part: str, whole: str) -> float:
+    """Share of one energy in another over the second half of the sliding distance [-].
+
+    The first half holds the onset of sliding, in which the block takes up its deformation.
+    """
+    if history.empty or not history["sliding_distance_mm"].iloc[-1] > 0.0:
+        return 0.0
+    half = 0.5 * history["sliding_distance_mm"].iloc[-1]
+    late = history[history["sliding_distance_mm"] >= half]
+    first = history[history["sliding_distance_mm"] < half].iloc[-1:]
+    span = pd.concat([first, late])[[part, whole]]
+    change = span.iloc[-1] - span.iloc[0]
+    return float(change[part] / change[whole]) if change[whole] > 0.0 else 0.0

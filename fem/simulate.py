@@ -28,7 +28,7 @@ from fem.regularisation import viscosity
 from fem.results import Result
 from fem.rigid_run import simulate_rigid
 from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
-from fem.run_summary import largest, last_values, sliding_means
+from fem.run_summary import largest, last_values, sliding_means, steady_share
 from fem.step_control import StepController, landed
 
 #: Contact modulus of the block with itself over its bulk modulus: a pressure of 30 % of the
@@ -278,9 +278,12 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "wall_s": run.wall,
         "energy_error": run.audit.error,
         "heat_error": abs(heat.imbalance) / made if made > 0.0 else 0.0,
-        "regularisation_share": run.audit.regularisation_share,
+        "regularisation_share": steady_share(
+            history, "viscous_dissipation_mJ_per_mm", "work_in_mJ_per_mm"
+        ),
         "capped_heat_share": run.audit.capped_share,
         "rejected_steps": run.rejected,
+        "regularisation_share_with_onset": run.audit.regularisation_share,
         "friction_lag_error": largest(history, "friction_lag_error"),
         "largest_self_penetration": largest(history, "self_contact_penetration"),
         "min_J": run.recorder.smallest_J,
