@@ -11,11 +11,11 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-fast lint format bench figures clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench figures clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
-	@echo "make test       all tests        (make test-fast: without the slow ones)"
+	@echo "make test       tests, without the slow ones     (make test-all: these too)"
 	@echo "make lint       ruff, mypy, import contracts     (make format: rewrite)"
 	@echo "make bench      benchmarks"
 	@echo "make figN       one figure of the paper: $(FIGURES)"
@@ -36,10 +36,10 @@ run: $(READY)
 	@$(MAKE) --no-print-directory $(RESULTS)/run.done
 
 test: $(READY)
-	$(BIN)/python -m pytest --benchmark-skip
-
-test-fast: $(READY)
 	$(BIN)/python -m pytest --benchmark-skip -m "not slow"
+
+test-all: $(READY)
+	$(BIN)/python -m pytest --benchmark-skip
 
 lint: $(READY)
 	$(BIN)/ruff check .
