@@ -195,16 +195,18 @@ def _law(
     Returns the fit, the last simulations, and the largest change [K] that the last correction of
     the law makes to their temperatures.
     """
-    slides = [estimate.slide for estimate in found]
+    rounds = [[estimate.slide for estimate in found]]
     platens = [estimate.platen for estimate in found]
-    result = _fit_law(data, slides, _start(found))
+    result = _fit_law(data, rounds, _start(found))
+    rounds.clear()
     while True:
         law = power(result.theta, model.cap)
         slides = [
-            model.simulated(s.condition, law, platen, s.m)
-            for s, platen in zip(slides, platens, strict=True)
+            model.simulated(estimate.slide.condition, law, platen, estimate.m)
+            for estimate, platen in zip(found, platens, strict=True)
         ]
-        result = _fit_law(data, slides, result.theta)
+        rounds.append(slides)
+        result = _fit_law(data, rounds, result.theta)
         law = power(result.theta, model.cap)
         change = max(slide.largest_change(law) for slide in slides)
         pressed = all(abs(s.pressure_scale - 1.0) <= PRESSURE_TOLERANCE for s in slides)
@@ -223,13 +225,19 @@ def _start(found: Sequence[Simulated]) -> Array:
     return np.clip([np.exp(height), exponent], 2.0 * LOWER.clip(min=-1.0), 0.5 * UPPER)
 
 
-def _fit_law(data: PartitionData, slides: Sequence[Conditioned], start: Array) -> FitResult:
+def _fit_law(
+    data: PartitionData, rounds: Sequence[Sequence[Conditioned]], start: Array
+) -> FitResult:
     """Fit the law to the measurements through what the slides predict for other laws."""
-    cap = slides[0].cap
+    cap = rounds[0][0].cap
 
     def predict(theta: Array) -> Array:
         law = power(theta, cap)
-        return np.concatenate([slide.predicted(law) for slide in slides])
+        shares = _nearness(theta, rounds)
+        return sum(
+            share * np.concatenate([slide.predicted(law) for slide in slides])
+            for share, slides in zip(shares, rounds, strict=True)
+        )
 
     problem = Problem(
         names=NAMES,
@@ -240,7 +248,29 @@ def _fit_law(data: PartitionData, slides: Sequence[Conditioned], start: Array) -
         lower=LOWER,
         upper=UPPER,
     )
-    return fit(problem, start[None, :])
+    starts = [start, *(_parameters(slides) for slides in rounds if slides[0].law.exponent != 0.0)]
+    return fit(problem, np.array(starts))
+
+
+def _parameters(slides: Sequence[Conditioned]) -> Array:
+    return np.array([slides[0].law.prefactor, slides[0].law.exponent])
+
+
+def _nearness(theta: Array, rounds: Sequence[Sequence[Conditioned]]) -> Array:
+    """Shares of the rounds of simulations in a prediction, by the distance of their laws.
+
+    The distance is the largest difference of ln kappa over the pressures. The prediction is then
+    exact at every law that was simulated, and between two of them it learns from both, which
+    ends the swings that a cap on part of the contact can cause.
+    """
+    if len(rounds) == 1:
+        return np.ones(1)
+    ln_p = np.log([slide.contact_pressure for slide in rounds[-1]])
+    height, slope = np.log(theta[0]), theta[1]
+    laws = [_parameters(slides) for slides in rounds]
+    distance = [np.abs(height - np.log(A) + (slope - n) * ln_p).max() for A, n in laws]
+    weights = 1.0 / np.maximum(distance, 1e-6) ** 4
+    return np.asarray(weights / weights.sum())
 
 
 # -- result ------------------------------------------------------------------------------------

@@ -139,21 +139,22 @@ class Conditioned:
         T = self.ambient + (slide.T - self.ambient) * ratio**self.m
         if place is not None:
             return np.asarray(np.interp(place, slide.X, T))
-        return np.full(self.condition.observed.size, T[self._peak])
+        return np.full(self.condition.observed.size, T[self._interior].max())
 
     @property
-    def _peak(self) -> int:
-        """Point of the highest temperature of the interior.
-
-        A change of the law moves it along a maximum, which changes the temperature there less
-        than its own partition does.
-        """
+    def _interior(self) -> NDArray[np.intp]:
+        """Points that may be the hottest of the interior with another law."""
         X, T = self.slide.X, self.slide.T
+        behind = X / X[-1] <= 1.0 - EDGE_ZONE
         if self.law.exponent == 0.0:
             # A constant partition heats the crushed leading edge far more than the power law
             # does, and its peak may hide the valley behind it: the leading fifth is left out.
-            return int(np.argmax(np.where(X / X[-1] <= 1.0 - EDGE_ZONE, T, -np.inf)))
-        return int(np.searchsorted(X, interior_peak(X, T).X_of_peak_mm))
+            # Its hottest point stands for the others, since the law has heated those at the rear
+            # before they were as lightly pressed as they are at the end.
+            return np.array([np.argmax(np.where(behind, T, -np.inf))])
+        peak = interior_peak(X, T)
+        behind |= peak.X_of_peak_mm >= X
+        return np.flatnonzero(behind & (peak.T_max_C >= T))
 
 
 @dataclass(frozen=True, kw_only=True)

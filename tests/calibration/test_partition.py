@@ -229,8 +229,8 @@ def test_a_kept_simulation_counts_only_when_complete_and_of_this_program(tmp_pat
 
 @pytest.mark.slow
 def test_law_comes_back_from_simulated_blocks(tmp_path):
-    """Coarse mesh and 30 mm instead of 120 mm; each simulation takes about ten seconds."""
-    case = case_of(distance_mm=30.0)
+    """Coarse mesh and 20 mm instead of 120 mm; each simulation takes some seconds."""
+    case = case_of(distance_mm=20.0)
     rows = []
     for p in PRESSURES:
         summary = simulate(case.with_overrides({"loading.mean_pressure_N_per_mm2": p})).summary
