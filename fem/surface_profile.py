@@ -49,7 +49,8 @@ def interior_peak(X_mm: ArrayLike, T_C: ArrayLike) -> InteriorPeak:
     1. A *valley* is a point of the leading two fifths of the surface that lies more than 4 % of
        the profile's span below the highest point on either side of it, the one towards the front
        being in the leading fifth. That one is the *front-edge peak*.
-    2. The interior is everything behind the deepest valley.
+    2. The interior is everything behind the rearmost valley. There may be several: a corner that
+       is folded away from the road stays cold in front of the front-edge peak.
     3. Without a valley, the leading fifth may still rise by more than 4 % of the span above what
        lies behind it (a peak that runs out into a plateau, a profile that rises to the front). The
        interior then ends where the leading fifth begins.
@@ -103,7 +104,7 @@ def excess_area(X_mm: ArrayLike, T_C: ArrayLike, T_0_C: float) -> float:
 
 
 def _valley(T: FloatArray, from_front: FloatArray, zone: int, significant: float) -> int | None:
-    """Index of the deepest valley behind a front-edge peak, if there is one."""
+    """Index of the lowest point of the rearmost valley behind a front-edge peak, or None."""
     behind = np.maximum.accumulate(T)
     ahead = np.maximum.accumulate(T[::-1])[::-1]
     # Where the highest point ahead is not in the leading fifth, it is an interior peak.
@@ -111,7 +112,10 @@ def _valley(T: FloatArray, from_front: FloatArray, zone: int, significant: float
     peak_in_zone[zone:] = True
     rises = np.minimum(behind, ahead) - T > significant
     candidates = np.flatnonzero(rises & peak_in_zone & (from_front <= VALLEY_ZONE))
-    return int(candidates[np.argmin(T[candidates])]) if candidates.size else None
+    if not candidates.size:
+        return None
+    rearmost = np.split(candidates, np.flatnonzero(np.diff(candidates) > 1) + 1)[0]
+    return int(rearmost[np.argmin(T[rearmost])])
 
 
 def _front_rises(T: FloatArray, zone: int, significant: float) -> bool:

@@ -146,3 +146,12 @@ def test_a_profile_that_is_none_is_refused_in_words(X_mm, T_C, words):
         interior_peak(X_mm, T_C)
     with pytest.raises(ValueError, match=words):
         excess_area(X_mm, T_C, 20.0)
+
+
+def test_a_cold_corner_in_front_of_the_front_peak_does_not_hide_the_valley_behind_it():
+    X = np.array([0.0, 4.0, 6.0, 10.0, 14.0, 16.0, 17.0, 18.0, 18.6, 19.2, 20.0])
+    T = np.array([20.0, 22.0, 26.0, 26.1, 26.0, 25.8, 24.0, 28.4, 27.0, 20.5, 24.0])
+    peak = interior_peak(X, T)
+    assert peak.T_max_C == 26.1
+    assert peak.X_of_peak_mm == 10.0
+    assert peak.T_edge_C == 28.4
