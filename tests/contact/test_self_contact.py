@@ -1,0 +1,546 @@
+"""Contact of a boundary with itself: forces, tangent, friction work, and the choice of partners."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from contact.self_contact import (
+    BEHIND,
+    HOLD,
+    NEIGHBOURS,
+    OPPOSING,
+    OVERHANG,
+    UNSEEN,
+    Boundary,
+    Pairs,
+    _near,
+    dissipation,
+    find_pairs,
+    followed,
+    heat_sources,
+    node_normals,
+    pair_forces,
+    pair_tangents,
+    penetration,
+    segment_geometry,
+)
+
+STIFFNESS, MU = 3.0, 0.7
+
+
+# --------------------------------------------------------------------------- forces and tangent
+
+FRICTION = {
+    "frictionless": {"mu": 0.0, "moved": 0.05, "shear_n": 0.0},
+    "stick": {"mu": 1e3, "moved": 0.05, "shear_n": 0.1},
+    "slip forwards": {"mu": 1.0, "moved": -5.0, "shear_n": 0.0},
+    "slip backwards": {"mu": 1.0, "moved": 5.0, "shear_n": 0.0},
+}
+
+
+def random_pairs(side, orientation, *, mu, moved, shear_n, count=6, seed=1):
+    """Pairs at random places, all pressed (side -1) or all open (+1), and their coordinates."""
+    rng = np.random.default_rng(seed)
+    a = rng.uniform(-1.0, 1.0, (count, 2))
+    angle = rng.uniform(0.0, 2.0 * np.pi, count)
+    t = np.column_stack([np.cos(angle), np.sin(angle)])
+    n = orientation * np.column_stack([t[:, 1], -t[:, 0]])
+    L = rng.uniform(0.5, 2.0, count)
+    xi, gap = rng.uniform(0.1, 0.9, count), side * rng.uniform(0.1, 0.6, count)
+    s = a + (xi * L)[:, None] * t + gap[:, None] * n
+    x = np.stack([s, a, a + L[:, None] * t], axis=1).reshape(-1, 2)
+    pairs = Pairs(
+        place=np.arange(count), nodes=np.arange(3 * count).reshape(count, 3), xi_n=xi + moved,
+        L_n=1.1 * L, stiffness=rng.uniform(2.0, 4.0, count), shear_n=np.full(count, shear_n),
+        mu=mu, orientation=orientation,
+    )  # fmt: skip
+    return pairs, x
+
+
+@pytest.fixture(params=[1, -1], ids=["left", "right"])
+def orientation(request):
+    return request.param
+
+
+@pytest.fixture(params=list(FRICTION))
+def pressed(request, orientation):
+    return random_pairs(-1.0, orientation, **FRICTION[request.param])
+
+
+def central_differences(function, x, count, step=1e-6):
+    """Derivatives of `function` (count, ...) with respect to s, a, b of each pair."""
+    columns = []
+    for j in range(6):
+        d = np.zeros((count, 6))
+        d[:, j] = step
+        d = d.reshape(-1, 2)
+        columns.append((function(x + d) - function(x - d)) / (2.0 * step))
+    return np.stack(columns, axis=-1)
+
+
+def test_the_cases_are_what_their_names_say(orientation):
+    slipping = {
+        name: pair_forces(*random_pairs(-1.0, orientation, **options))
+        for name, options in FRICTION.items()
+    }
+    assert not slipping["stick"].slipping.any()
+    assert np.all(slipping["slip forwards"].shear > 0.0)
+    assert np.all(slipping["slip backwards"].shear < 0.0)
+    assert np.all(slipping["slip forwards"].slipping & slipping["slip backwards"].slipping)
+    assert not slipping["frictionless"].shear.any()
+
+
+def test_gap_is_open_on_the_side_away_from_the_material():
+    s, a, b = np.array([[0.3, -0.2]]), np.array([[0.0, 0.0]]), np.array([[1.0, 0.0]])
+    left, right = segment_geometry(s, a, b, 1), segment_geometry(s, a, b, -1)
+    assert left.gap == pytest.approx(0.2)
+    assert right.gap == pytest.approx(-0.2)
+    assert left.xi == pytest.approx(0.3)
+
+
+def test_tangent_matches_central_differences(pressed):
+    pairs, x = pressed
+    K = pair_tangents(pairs, pair_forces(pairs, x))
+    numerical = central_differences(lambda y: pair_forces(pairs, y).residual, x, len(K))
+    np.testing.assert_allclose(K, numerical, atol=1e-7 * np.abs(K).max())
+
+
+def test_gradients_of_gap_and_slip_match_central_differences(pressed):
+    pairs, x = pressed
+    forces = pair_forces(pairs, x)
+    count = len(forces.slip)
+    for gradient, value in (
+        (forces.grad_gap, lambda y: pair_forces(pairs, y).geometry.gap),
+        (forces.grad_slip, lambda y: pair_forces(pairs, y).slip),
+    ):
+        numerical = central_differences(value, x, count)
+        np.testing.assert_allclose(gradient, numerical, atol=1e-8 * np.abs(gradient).max())
+
+
+def test_residual_without_slip_is_the_gradient_of_the_stored_energy(orientation):
+    pairs, x = random_pairs(-1.0, orientation, **FRICTION["stick"])
+
+    def energy(y):
+        forces = pair_forces(pairs, y)
+        return 0.5 * (forces.normal**2 + forces.shear**2) / pairs.stiffness
+
+    residual = pair_forces(pairs, x).residual
+    numerical = central_differences(energy, x, len(residual))
+    np.testing.assert_allclose(residual, numerical, atol=1e-7 * np.abs(residual).max())
+
+
+def test_tangent_is_symmetric_unless_it_slips(orientation):
+    for name in ("frictionless", "stick"):
+        pairs, x = random_pairs(-1.0, orientation, **FRICTION[name])
+        K = pair_tangents(pairs, pair_forces(pairs, x))
+        np.testing.assert_allclose(K, K.transpose(0, 2, 1), atol=1e-12 * np.abs(K).max())
+
+
+def test_open_pairs_have_neither_force_nor_tangent(orientation):
+    for options in FRICTION.values():
+        pairs, x = random_pairs(1.0, orientation, **options)
+        forces = pair_forces(pairs, x)
+        assert np.all(forces.geometry.gap > 0.0)
+        for value in (forces.normal, forces.shear, forces.residual):
+            assert not value.any()
+        assert not pair_tangents(pairs, forces).any()
+
+
+def test_forces_and_moments_of_each_pair_are_in_balance(pressed):
+    pairs, x = pressed
+    forces = pair_forces(pairs, x).residual.reshape(-1, 3, 2)
+    at, size = x[pairs.nodes], np.abs(forces).max()
+    moments = at[..., 0] * forces[..., 1] - at[..., 1] * forces[..., 0]
+    np.testing.assert_allclose(forces.sum(axis=1), 0.0, atol=1e-13 * size)
+    np.testing.assert_allclose(moments.sum(axis=1), 0.0, atol=1e-13 * size)
+
+
+def test_the_node_is_pushed_out_and_held_back(orientation):
+    """The residual is an internal force: the pair acts on the node with its negative."""
+    pairs, x = random_pairs(-1.0, orientation, **FRICTION["slip forwards"])
+    forces = pair_forces(pairs, x)
+    on_node = -forces.residual[:, :2]
+    outwards = np.einsum("ki,ki->k", on_node, forces.geometry.n)
+    assert np.all(outwards > 0.0)
+    frictionless = pair_forces(replace(pairs, mu=0.0), x)
+    drag = np.einsum("ki,ki->k", on_node + frictionless.residual[:, :2], forces.geometry.t)
+    assert np.all(drag * forces.slip < 0.0)
+
+
+def test_friction_never_exceeds_its_limit():
+    for seed in range(20):
+        pairs, x = random_pairs(-1.0, 1, mu=MU, moved=0.2, shear_n=0.3, seed=seed)
+        forces = pair_forces(pairs, x)
+        assert np.all(np.abs(forces.shear) <= MU * forces.normal * (1.0 + 1e-14))
+
+
+# --------------------------------------------------------------------------------- dissipation
+
+
+def one_pair(xi_n=0.5, shear_n=0.0, mu=MU):
+    """A node above a segment of length 2 along x (material below), stiffness 3."""
+    return Pairs(
+        place=np.array([0]), nodes=np.array([[0, 1, 2]]), xi_n=np.array([xi_n]),
+        L_n=np.array([2.0]), stiffness=np.array([STIFFNESS]), shear_n=np.array([shear_n]),
+        mu=mu, orientation=1,
+    )  # fmt: skip
+
+
+def node_at(x, depth):
+    """Coordinates of that node, pressed in by `depth`; the material is below the segment."""
+    return np.array([[x, -depth], [1.0, 0.0], [-1.0, 0.0]])
+
+
+def followed_path(positions, depths, mu=MU):
+    """Friction work of each step along a path of the node, and the work of its tangential force."""
+    heat, work, shear, x_n = [], [], 0.0, positions[0]
+    for x, depth in zip(positions[1:], depths[1:], strict=True):
+        pairs = one_pair(xi_n=0.5 * (1.0 - x_n), shear_n=shear, mu=mu)
+        forces = pair_forces(pairs, node_at(x, depth))
+        heat.append(dissipation(pairs, forces)[0])
+        work.append(0.5 * (forces.shear[0] + shear) * forces.slip[0])
+        shear, x_n = forces.shear[0], x
+    return np.array(heat), np.array(work), shear
+
+
+def test_stick_cycles_dissipate_nothing():
+    x = 0.1 * np.sin(np.linspace(0.0, 6.0 * np.pi, 61))
+    heat, work, _ = followed_path(x, np.full(x.size, 0.5), mu=10.0)
+    assert np.abs(work).max() > 1e-4
+    assert not heat.any()
+
+
+def test_steady_slip_dissipates_force_times_distance():
+    x = np.linspace(0.0, 0.9, 31)
+    depth = 0.1
+    heat, _, shear = followed_path(x, np.full(x.size, depth))
+    limit = MU * STIFFNESS * depth
+    assert abs(shear) == pytest.approx(limit)
+    np.testing.assert_allclose(heat[-10:], limit * np.diff(x)[-10:], rtol=1e-12)
+
+
+def test_in_slip_cycles_work_is_heat_plus_stored_energy():
+    x = 0.4 * np.sin(np.linspace(0.0, 6.0 * np.pi, 400))
+    heat, work, shear = followed_path(x, np.full(x.size, 0.1))
+    assert heat.sum() > 0.1
+    assert work.sum() == pytest.approx(heat.sum() + shear**2 / (2.0 * STIFFNESS), rel=1e-10)
+
+
+def test_dissipation_is_never_negative():
+    rng = np.random.default_rng(3)
+    heat, _, _ = followed_path(rng.uniform(-0.5, 0.5, 2000), rng.uniform(-0.1, 0.3, 2000))
+    assert heat.min() >= 0.0
+    assert heat.max() > 0.0
+
+
+def test_heat_is_conserved_and_half_of_it_goes_to_each_side(pressed):
+    pairs, x = pressed
+    forces = pair_forces(pairs, x)
+    heat = np.random.default_rng(4).uniform(0.0, 1.0, len(forces.slip))
+    nodes, shares = heat_sources(pairs, forces, heat)
+    assert np.array_equal(nodes, pairs.nodes.ravel())
+    assert shares.min() >= 0.0
+    np.testing.assert_allclose(shares.reshape(-1, 3).sum(axis=1), heat, rtol=1e-14)
+    np.testing.assert_allclose(shares.reshape(-1, 3)[:, 0], 0.5 * heat, rtol=1e-14)
+
+
+def test_heat_of_a_projection_off_the_segment_stays_positive_and_conserved():
+    pairs = one_pair()
+    forces = pair_forces(pairs, node_at(1.1, 0.1))
+    _, shares = heat_sources(pairs, forces, np.array([2.0]))
+    np.testing.assert_allclose(shares, [1.0, 1.0, 0.0])
+
+
+# ------------------------------------------------------------------------------ choice of pairs
+
+REACH = 0.15
+
+
+def slot(gap, count=41, spacing=0.1, shift=0.0):
+    """Chain around a slot that opens to the left: lower face, two end nodes, upper face.
+
+    The material lies around the slot, to the right of the chain (orientation -1).
+    """
+    x = spacing * np.arange(count)
+    lower = np.column_stack([x, np.full(count, -0.5 * gap)])
+    upper = np.column_stack([x[::-1] + shift, np.full(count, 0.5 * gap)])
+    end = np.column_stack([np.full(2, x[-1] + 0.5), [-0.5, 0.5]])
+    return np.vstack([lower, end, upper])
+
+
+def boundary_of(points, orientation=-1, size=0.1):
+    nodes = np.arange(len(points))
+    return Boundary.of(nodes, orientation, points, np.full(len(points), size))
+
+
+def pairs_of(points, accepted=None, *, reach=REACH, orientation=-1, size=0.1, shear_n=None):
+    boundary = boundary_of(points, orientation, size)
+    zeros = np.zeros(len(points))
+    return find_pairs(
+        boundary, points if accepted is None else accepted, points, reach=reach,
+        stiffness=STIFFNESS, mu=MU, shear_n=zeros if shear_n is None else shear_n,
+    )  # fmt: skip
+
+
+def couples(pairs):
+    """Node and first segment node of each pair."""
+    return {(int(s), int(min(a, b))) for s, a, b in pairs.nodes}
+
+
+def brute_force_search(points, reach):
+    """Nodes and segments that `find_pairs` has to look at, one by one."""
+    count, found = len(points), set()
+    for s in range(count):
+        for a in range(count - 1):
+            apart = min(abs(s - a), abs(s - a - 1))
+            near = min(np.linalg.norm(points[s] - points[i]) for i in (a, a + 1))
+            if apart > NEIGHBOURS and near <= reach:
+                found.add((s, a))
+    return found
+
+
+def brute_force_pairs(points, reach, orientation):
+    """Pairs of `find_pairs` at rest with no penetration: the nearest segment of each node."""
+    normals, best = node_normals(points, orientation), {}
+    for s, a in sorted(brute_force_search(points, reach)):
+        one = segment_geometry(points[[s]], points[[a]], points[[a + 1]], orientation)
+        if normals[s] @ one.n[0] >= OPPOSING or abs(one.xi[0] - 0.5) > 0.5 + OVERHANG:
+            continue
+        if 0.0 < one.gap[0] < min(best.get(s, (reach,))[0], reach):
+            best[s] = (one.gap[0], a)
+    return {(s, a) for s, (_, a) in best.items()}
+
+
+def wavy_slot(seed=5):
+    """Slot whose nodes are shifted at random, so that no two distances are equal."""
+    points = slot(0.08, shift=0.033)
+    return points + np.random.default_rng(seed).uniform(-0.02, 0.02, points.shape)
+
+
+def test_boundary_lengths_add_up_to_the_length_of_the_chain():
+    points = wavy_slot()
+    total = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+    assert boundary_of(points).length.sum() == pytest.approx(total, rel=1e-14)
+
+
+def test_node_normals_point_out_of_the_material(orientation):
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    square = square if orientation == 1 else square[::-1]
+    normals = node_normals(square, orientation)
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0)
+    assert np.all(np.einsum("ki,ki->k", normals, square - 0.5) > 0.0)
+
+
+def test_search_agrees_with_brute_force():
+    points = wavy_slot()
+    place, segment = _near(boundary_of(points), points, REACH)
+    found = set(zip(place.tolist(), segment.tolist(), strict=True))
+    assert len(found) == len(place) > 100
+    assert found == brute_force_search(points, REACH)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_pairs_agree_with_brute_force(seed):
+    points = wavy_slot(seed)
+    found = couples(pairs_of(points))
+    assert len(found) > 60
+    assert found == brute_force_pairs(points, REACH, -1)
+
+
+def test_pairs_do_not_depend_on_the_direction_of_the_chain():
+    points, last = wavy_slot(), len(wavy_slot()) - 1
+    backwards = pairs_of(points[::-1], orientation=1)
+    mirrored = {(last - s, last - a - 1) for s, a in couples(backwards)}
+    assert mirrored == couples(pairs_of(points))
+
+
+def test_candidates_grow_in_proportion_to_the_nodes():
+    counts = []
+    for count in (500, 1000, 2000, 4000):
+        points = slot(0.08, count=count)
+        counts.append(len(_near(boundary_of(points), points, REACH)[0]) / len(points))
+    np.testing.assert_allclose(counts, counts[-1], rtol=0.02)
+    assert counts[-1] < 10.0
+
+
+def test_both_faces_meet_each_other():
+    points = slot(0.05, shift=0.05)
+    lower = {s for s, _ in couples(pairs_of(points)) if s < 41}
+    upper = {s for s, _ in couples(pairs_of(points)) if s > 42}
+    assert len(lower) >= 39
+    assert len(upper) >= 39
+
+
+def test_neighbours_never_meet():
+    """A chain folded so sharply that its next nodes lie on top of each other."""
+    points = slot(0.02, shift=0.03)
+    points = np.delete(points, [41, 42], axis=0)
+    found = pairs_of(points, reach=0.5)
+    place, segment = found.place, found.nodes[:, 1:].min(axis=1)
+    apart = np.minimum(np.abs(place - segment), np.abs(place - segment - 1))
+    assert apart.min() == NEIGHBOURS + 1
+
+
+def test_faces_with_the_same_normal_never_meet():
+    """Two faces above each other that look the same way, as both sides of a thin step do."""
+    points = slot(0.05, shift=0.05)
+    points[41:43] = [[4.5, 3.0], [-1.0, 3.0]]
+    points[43:] = points[43:][::-1]
+    assert len(_near(boundary_of(points), points, REACH)[0]) > 100
+    assert not couples(pairs_of(points))
+
+
+@pytest.mark.parametrize("beyond, expected", [(0.5 * OVERHANG, True), (2.0 * OVERHANG, False)])
+def test_only_nodes_in_front_of_a_segment_meet_it(beyond, expected):
+    points = slot(0.05, shift=0.05)
+    points[-1, 0] = points[0, 0] - beyond * 0.1
+    found = {s for s, _ in couples(pairs_of(points))}
+    assert (len(points) - 1 in found) == expected
+
+
+def test_a_node_behind_the_segment_in_the_accepted_state_cannot_meet_it():
+    """In a thin wedge the other face is near, opposed and behind: through the material."""
+    wedge = slot(0.05, shift=0.05)
+    assert couples(pairs_of(wedge, orientation=-1))
+    assert not couples(pairs_of(wedge, orientation=1))
+
+
+@pytest.mark.parametrize("depth, expected", [(0.8 * BEHIND, True), (1.2 * BEHIND, False)])
+def test_what_counts_as_behind_is_a_share_of_the_local_size(depth, expected):
+    accepted = slot(-depth * 0.1, shift=0.05)
+    assert bool(couples(pairs_of(slot(-0.001, shift=0.05), accepted))) == expected
+
+
+def test_a_node_that_has_passed_through_within_the_step_is_found():
+    accepted, now = slot(0.02, shift=0.05), slot(-0.02, shift=0.05)
+    found = pairs_of(now, accepted)
+    assert len(couples(found)) > 70
+    assert np.all(pair_forces(found, now).normal > 0.0)
+
+
+def test_an_open_node_meets_its_nearest_segment_only():
+    points = wavy_slot()
+    found = pairs_of(points, reach=0.3)
+    assert np.unique(found.place).size == found.place.size
+
+
+def crease(depth):
+    """Groove with a right angle whose sides a corner touches on both sides at once.
+
+    The corner of the upper body sits in the groove, pressed in by `depth` along both normals.
+    """
+    t = np.linspace(1.0, 0.0, 11)[:, None]
+    left = np.array([[-1.0, 1.0]]) * t
+    groove = np.vstack([left, (left * [-1.0, 1.0])[::-1][1:]])
+    body = groove[::-1] * 0.97 + [0.0, 0.4]
+    tip = len(body) // 2
+    body[tip] = [0.0, -depth * np.sqrt(2.0)]
+    turn = np.array([[2.0, 1.0], [2.0, 2.0]])
+    return np.vstack([groove, turn, body]), len(groove) + len(turn) + tip
+
+
+def test_a_node_in_a_crease_touches_both_sides():
+    size = 0.1
+    points, tip = crease(0.5 * BEHIND * size)
+    found = pairs_of(points, reach=0.2, size=size)
+    segments = {a for s, a in couples(found) if s == tip}
+    assert segments == {9, 10}
+
+
+def test_an_open_node_above_a_crease_meets_one_side():
+    points, tip = crease(-0.01)
+    found = pairs_of(points, reach=0.2)
+    assert len([s for s, _ in couples(found) if s == tip]) == 1
+
+
+def test_the_force_of_the_accepted_state_goes_to_one_pair_of_a_node():
+    points, tip = crease(0.5 * BEHIND * 0.1)
+    shear = np.zeros(len(points))
+    shear[tip] = 0.4
+    found = pairs_of(points, reach=0.2, shear_n=shear)
+    assert found.shear_n[found.place == tip].sum() == pytest.approx(0.4)
+
+
+def test_slip_is_measured_from_the_accepted_state():
+    accepted, now = slot(-0.001, shift=0.05), slot(-0.001, shift=0.06)
+    found = pairs_of(now, accepted)
+    middle = np.abs(accepted[found.place, 0] - 2.0) < 1.0
+    np.testing.assert_allclose(np.abs(pair_forces(found, now).slip[middle]), 0.01, rtol=1e-10)
+
+
+def test_penetration_is_relative_to_the_local_size():
+    now = slot(-0.001, shift=0.05)
+    assert penetration(pairs_of(now), now, boundary_of(now, size=0.1)) == pytest.approx(0.01)
+    apart = slot(0.001, shift=0.05)
+    assert penetration(pairs_of(apart), apart, boundary_of(apart)) == 0.0
+    assert penetration(pairs_of(slot(5.0)), apart, boundary_of(apart)) == 0.0
+
+
+# ---------------------------------------------------------------------- going on with the pairs
+
+
+def rows(pairs):
+    return {tuple(row) for row in pairs.nodes.tolist()}
+
+
+def sheared(by):
+    """Slot pressed shut by 1 % of the size, its upper face moved to the left."""
+    return slot(-0.001, shift=0.05 - by)
+
+
+def test_pairs_that_hold_are_handed_back_themselves():
+    now = sheared(0.0)
+    pairs = pairs_of(now)
+    assert followed(pairs, pairs_of(now), now, boundary_of(now)) is pairs
+
+
+def test_a_projection_a_little_off_its_segment_keeps_its_partner():
+    """At a kink the next segment is found, but not deep enough to matter."""
+    start, by = sheared(0.0), 0.05 + 0.5 * HOLD * 0.1
+    now = sheared(by)
+    now[43:, 1] += 0.001 - 0.5 * UNSEEN * 0.1
+    pairs, found = pairs_of(start), pairs_of(now, start)
+    assert not rows(found) <= rows(pairs)
+    assert followed(pairs, found, now, boundary_of(now)) is pairs
+
+
+def test_a_closed_pair_that_left_its_segment_is_dropped_and_its_successor_taken():
+    start, now = sheared(0.0), sheared(0.05 + 2.0 * HOLD * 0.1)
+    pairs, found = pairs_of(start), pairs_of(now, start)
+    after = followed(pairs, found, now, boundary_of(now))
+    xi = pair_forces(after, now).geometry.xi
+    assert after is not pairs
+    assert np.all(np.abs(xi - 0.5) <= 0.5 + HOLD)
+    assert rows(found) <= rows(after)
+    assert not rows(pairs) <= rows(after)
+
+
+def test_an_open_pair_that_left_its_segment_does_no_harm_and_stays():
+    start, now = slot(0.02, shift=0.05), slot(0.02, shift=-0.02)
+    pairs = pairs_of(start)
+    assert followed(pairs, pairs_of(now, start), now, boundary_of(now)) is pairs
+
+
+@pytest.mark.parametrize("depth, expected", [(0.5 * UNSEEN, False), (2.0 * UNSEEN, True)])
+def test_what_has_penetrated_visibly_is_added(depth, expected):
+    start, now = slot(0.5, shift=0.05), slot(-depth * 0.1, shift=0.05)
+    near = slot(0.02, shift=0.05)
+    pairs, found = pairs_of(start), pairs_of(now, near)
+    assert pairs.place.size == 0
+    after = followed(pairs, found, now, boundary_of(now))
+    assert (after is not pairs) == expected
+    assert rows(after) == (rows(found) if expected else set())
+
+
+def test_kept_pairs_carry_their_history():
+    start, now = sheared(0.0), sheared(0.05 + 2.0 * HOLD * 0.1)
+    shear = np.linspace(0.1, 0.2, len(start))
+    pairs = pairs_of(start, shear_n=shear)
+    after = followed(pairs, pairs_of(now, start), now, boundary_of(now))
+    before = {tuple(r): i for i, r in enumerate(pairs.nodes.tolist())}
+    kept = [(before[tuple(r)], j) for j, r in enumerate(after.nodes.tolist()) if tuple(r) in before]
+    assert after.mu == pairs.mu
+    for name in ("place", "xi_n", "L_n", "stiffness", "shear_n"):
+        old, new = getattr(pairs, name), getattr(after, name)
+        np.testing.assert_array_equal(new[[j for _, j in kept]], old[[i for i, _ in kept]])
