@@ -30,8 +30,10 @@ IntArray = NDArray[np.int64]
 
 #: Normals of a node and a segment must oppose each other by more than this cosine.
 OPPOSING = -0.2
-#: Nodes closer than this along the boundary (in segments) do not meet a segment.
-NEIGHBOURS = 2
+#: Nodes this close to a segment along the boundary (in segments) do not meet it: only its own.
+#: A crease starts between the next nodes. If those pass through each other, the loop grows from
+#: node to node, and each one is behind the other face before it could meet it.
+NEIGHBOURS = 0
 #: Share of the local size by which a node may be behind a segment in the accepted state.
 BEHIND = 0.05
 #: Projections count on a segment extended by this share on both sides.

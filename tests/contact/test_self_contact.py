@@ -372,14 +372,36 @@ def test_both_faces_meet_each_other():
     assert len(upper) >= 39
 
 
-def test_neighbours_never_meet():
-    """A chain folded so sharply that its next nodes lie on top of each other."""
-    points = slot(0.02, shift=0.03)
-    points = np.delete(points, [41, 42], axis=0)
-    found = pairs_of(points, reach=0.5)
-    place, segment = found.place, found.nodes[:, 1:].min(axis=1)
-    apart = np.minimum(np.abs(place - segment), np.abs(place - segment - 1))
-    assert apart.min() == NEIGHBOURS + 1
+def fold(opening):
+    """Right half of the material cut by a fold whose tip is the middle node, 3 nodes a side.
+
+    The faces enclose `opening` degrees; the material is to the right of the chain.
+    """
+    half, r = np.radians(0.5 * opening), 0.1 * np.arange(3, 0, -1)[:, None]
+    lower = r * [[-np.cos(half), -np.sin(half)]]
+    upper = 0.85 * r[::-1] * [[-np.cos(half), np.sin(half)]]
+    return np.vstack([lower, [[0.0, 0.0]], upper])
+
+
+def test_a_fold_closes_between_its_first_nodes():
+    """Otherwise they pass through each other, and the loop grows from there."""
+    accepted, now = fold(6.0), fold(-6.0)
+    found = pairs_of(now, accepted)
+    assert {(4, 2), (2, 4)} & couples(found)
+    assert np.all(pair_forces(found, now).normal > 0.0)
+
+
+def test_a_node_never_meets_its_own_segments():
+    for points in (fold(2.0), fold(-0.1), wavy_slot()):
+        found = pairs_of(points, fold(2.0) if len(points) == 7 else None, reach=0.5)
+        assert found.place.size
+        assert not np.any(found.nodes[:, 1:] == found.nodes[:, :1])
+
+
+def test_the_sharp_corner_of_a_wedge_does_not_meet_itself():
+    """The faces of a wedge are as close and as opposed as those of a fold, but behind."""
+    assert couples(pairs_of(fold(20.0), orientation=-1))
+    assert not couples(pairs_of(fold(20.0), orientation=1))
 
 
 def test_faces_with_the_same_normal_never_meet():
