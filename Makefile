@@ -11,13 +11,14 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-all lint format bench figures clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench bench-update bench-scaling figures clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
 	@echo "make test       tests, without the slow ones     (make test-all: these too)"
 	@echo "make lint       ruff, mypy, import contracts     (make format: rewrite)"
-	@echo "make bench      benchmarks"
+	@echo "make bench      benchmarks, compared with the committed baseline (make bench-update: rewrite it)"
+	@echo "make bench-scaling  growth of time and memory with mesh and distance; takes long"
 	@echo "make figN       one figure of the paper: $(FIGURES)"
 	@echo "make tableN     one table of the paper: $(TABLES)"
 	@echo "make figures    every figure there is"
@@ -52,7 +53,13 @@ format: $(READY)
 	$(BIN)/ruff check --fix .
 
 bench: $(READY)
-	$(BIN)/python -m pytest tests/benchmarks --benchmark-only
+	$(BIN)/python -m pytest tests/benchmarks --benchmark-only -m "not slow"
+
+bench-update: $(READY)
+	$(BIN)/python -m tests.benchmarks.baseline
+
+bench-scaling: $(READY)
+	$(BIN)/python -m pytest tests/benchmarks/test_scaling.py --benchmark-only -s
 
 # Figure 8 shows the introductory example, which is run first unless it has been run to its end.
 $(RESULTS)/run.done: examples/introductory.toml | $(READY)

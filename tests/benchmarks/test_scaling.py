@@ -1,7 +1,10 @@
 """Growth of time and memory with the number of elements, and of time with the distance slid.
 
-CPU times, because the wall time of a machine that others use contains their work.
+CPU times, because the wall time of a machine that others use contains their work. Takes long:
+`make bench-scaling`.
 """
+
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -42,16 +45,8 @@ def row_of(run):
 
 
 @pytest.mark.slow
-def test_time_and_memory_grow_moderately_with_the_elements():
-    rows = []
-    print(f"\nintroductory example, {SCALING_DISTANCE_MM:g} mm of its slide")
-    print("elements   CPU s  iterations  CPU s per iteration  solver s (wall)  peak memory GB")
-    for elements in ELEMENTS:
-        run = measured_run(introductory(SCALING_DISTANCE_MM, mesh=refined(elements)))
-        assert run["status"] == "ok", run["reason"]
-        rows.append(row_of(run))
-        print("{:8d} {:7.1f} {:11d} {:20.4f} {:16.1f} {:15.2f}".format(*rows[-1]), flush=True)
-    count, cpu, iterations, each, _, memory = np.array(rows).T
+def test_time_and_memory_grow_moderately_with_the_elements(benchmark):
+    count, cpu, iterations, each, _, memory = benchmark.pedantic(scaling_table, rounds=1).T
     print(
         f"CPU time grows with elements to the power of {exponent(count, cpu):.2f} "
         f"(iterations {exponent(count, iterations):.2f}, each {exponent(count, each):.2f})"
@@ -60,9 +55,23 @@ def test_time_and_memory_grow_moderately_with_the_elements():
     assert exponent(count, cpu) < 1.4
 
 
+def scaling_table():
+    """Rows of `row_of`, printed as they come."""
+    rows = []
+    print(f"\nintroductory example, {SCALING_DISTANCE_MM:g} mm of its slide")
+    print("elements   CPU s  iterations  CPU s per iteration  solver s (wall)  peak memory GB")
+    for elements in ELEMENTS:
+        run = measured_run(introductory(SCALING_DISTANCE_MM, mesh=refined(elements)))
+        assert run["status"] == "ok", run["reason"]
+        rows.append(row_of(run))
+        print("{:8d} {:7.1f} {:11d} {:20.4f} {:16.1f} {:15.2f}".format(*rows[-1]), flush=True)
+    return np.array(rows)
+
+
 @pytest.mark.slow
-def test_second_half_of_a_long_slide_costs_no_more_than_the_first():
-    run = measured_run(introductory(LONG_SLIDE_MM, mesh="coarse"))
+def test_second_half_of_a_long_slide_costs_no_more_than_the_first(benchmark):
+    case = introductory(LONG_SLIDE_MM, mesh="coarse")
+    run = benchmark.pedantic(measured_run, (case,), rounds=1)
     assert run["status"] == "ok", run["reason"]
     trace = np.array(run["trace"])
     sliding = trace[trace[:, 0] > 0.0]
@@ -70,7 +79,7 @@ def test_second_half_of_a_long_slide_costs_no_more_than_the_first():
     print(f"\n{LONG_SLIDE_MM:g} mm on the coarse mesh, {len(sliding)} steps")
     print("     from       to  CPU ms per mm  iterations per mm")
     marks = np.array([0.0, 0.1, 0.25, 0.5, 0.75, 1.0]) * LONG_SLIDE_MM
-    for begin, end in zip(marks[:-1], marks[1:], strict=True):
+    for begin, end in pairwise(marks):
         print("{:9.1f}{:9.1f}{:15.2f}{:19.2f}".format(*cost(distance, cpu, iterations, begin, end)))
     half = LONG_SLIDE_MM / 2.0
     first = cost(distance, cpu, iterations, 0.0, half)[2]
