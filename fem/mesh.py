@@ -132,7 +132,9 @@ def graded_coordinates(length: float, cells: int, smallest: float) -> FloatArray
     def excess(q: float) -> float:
         return float(np.expm1(cells * np.log(q)) / (q - 1.0) - target)
 
-    ratio = brentq(excess, 1.0 + 1e-9, 1.0 + max(10.0, target), xtol=1e-14)
+    # The last cell alone, q^(cells - 1) times the first, must not be longer than the whole.
+    largest = target ** (1.0 / (cells - 1)) * (1.0 + 1e-9)
+    ratio = brentq(excess, 1.0 + 1e-9, largest, xtol=1e-14)
     sizes = smallest * ratio ** np.arange(cells)
     coordinates = np.concatenate([[0.0], np.cumsum(sizes)])
     return np.asarray(coordinates * (length / coordinates[-1]))
