@@ -257,7 +257,7 @@ class CoupledModel:
             next_pairs = self._followed(state, pairs, result.x.u)
             if mu_settled and next_pairs is pairs:
                 return self._accept(
-                    state, target, problem, result, contact, mu_next,
+                    state, target, problem, result, contact,
                     iterations=iterations, hardest=hardest, lag=lag,
                 )  # fmt: skip
             mu, pairs = mu if mu_settled else mu_next, next_pairs
@@ -313,7 +313,6 @@ class CoupledModel:
         problem: StepProblem,
         result: newton.NewtonResult[Iterate, StepEvaluation],
         contact: RoadContact,
-        mu_next: FloatArray,
         *,
         iterations: int,
         hardest: int,

@@ -10,6 +10,7 @@ and Coulomb friction is the row operation ``row_x + s mu row_y`` (s: sense of th
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -237,7 +238,7 @@ class BlockMechanics:
         reference = 0.5 * (self._reference_edges[:-1] + self._reference_edges[1:])
         return np.where(full > 0.0, full, np.maximum(lone, 0.1 * reference))
 
-    @property
+    @cached_property
     def _reference_edges(self) -> FloatArray:
         x = self.mesh.points[self.mesh.boundary]
         return np.asarray(np.linalg.norm(np.diff(x, axis=0), axis=1))

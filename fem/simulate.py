@@ -94,7 +94,6 @@ class _Run:
         self.state = self.model.initial_state()
         self.audit = EnergyAudit()
         self.iterations = self.rejected = 0
-        self.largest_energy_error = 0.0
         self.log = [f"{case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
                     f"{len(self.model.mechanics.mesh.cells)} elements"]  # fmt: skip
         self.snapshot_distances = snapshots_due(case)
