@@ -156,7 +156,7 @@ def _draw(case: Case, directory: Path, *, missing_only: bool = False) -> None:
     """Draw the figures of a run that is written."""
     last = directory / "figures" / ("final_state.png" if case.output.vtu else "surface.png")
     if case.output.figures and not (missing_only and last.exists()):
-        from validation.run_figures import write_run_figures
+        from validation.drawing.run_figures import write_run_figures
 
         write_run_figures(directory)
 
@@ -298,9 +298,9 @@ def _add_sweep(commands: Any) -> None:
 
 
 def _sweep(arguments: argparse.Namespace) -> int:
-    from validation.sweep import sweep
-    from validation.sweep_progress import SweepBar, closing_line
-    from validation.sweep_workers import SchedulerLostError
+    from validation.sweeps.sweep import sweep
+    from validation.sweeps.sweep_progress import SweepBar, closing_line
+    from validation.sweeps.sweep_workers import SchedulerLostError
 
     directory = Path(arguments.output or Path("results") / Path(arguments.study).stem)
     _check_writable(directory)
@@ -351,7 +351,7 @@ def _add_compare(commands: Any) -> None:
 
 def _compare(arguments: argparse.Namespace) -> int:
     from calibration.errors import DataError
-    from validation.compare_command import write_comparison
+    from validation.measured.compare_command import write_comparison
 
     _check_writable(Path(arguments.output))
     try:
@@ -393,7 +393,7 @@ def _add_template(commands: Any) -> None:
 
 def _template(arguments: argparse.Namespace) -> int:
     if arguments.kind == "study":
-        from validation.study_template import study_template
+        from validation.sweeps.study_template import study_template
 
         sys.stdout.write(study_template())
     else:
@@ -450,8 +450,8 @@ def _add_numbered(commands: Any, what: str) -> argparse.ArgumentParser:
 
 def _figure(arguments: argparse.Namespace) -> int:
     from calibration.errors import DataError
-    from validation.figures import FIGURES, MEASURABLE, make_figure
-    from validation.measurements import read_measurements
+    from validation.measured.measurements import read_measurements
+    from validation.paper.figures import FIGURES, MEASURABLE, make_figure
 
     numbers = _numbers("figure", arguments, list(FIGURES))
     measured = None
@@ -476,7 +476,7 @@ def _figure(arguments: argparse.Namespace) -> int:
 
 
 def _table(arguments: argparse.Namespace) -> int:
-    from validation.tables import TABLES, make_table
+    from validation.paper.tables import TABLES, make_table
 
     for number in _numbers("table", arguments, list(TABLES)):
         path = make_table(number, arguments.output)
@@ -517,7 +517,7 @@ def _add_export(commands: Any) -> None:
 
 
 def _export(arguments: argparse.Namespace) -> int:
-    from validation.export_deck import friction_remark, write_deck
+    from validation.calculix.export_deck import friction_remark, write_deck
 
     case = _load(arguments)
     path = Path(arguments.output or f"{Path(arguments.case).stem}.inp")

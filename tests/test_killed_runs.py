@@ -169,7 +169,7 @@ def test_a_finished_run_that_was_killed_before_its_figures_gets_them(tmp_path, m
     case.write_text(CASE.replace("false", "true").replace("30.0", "0.3"))
     command = ["run", str(case), "-o", str(tmp_path / "run"), "--quiet"]
     with monkeypatch.context() as killed:
-        killed.setattr("validation.run_figures.save", lambda *_: sys.exit(KILLED))
+        killed.setattr("validation.drawing.run_figures.save", lambda *_: sys.exit(KILLED))
         with pytest.raises(SystemExit):
             treadfem.main(command)
     (tmp_path / "run" / "checkpoint.npz").unlink()  # runs that take no time have none

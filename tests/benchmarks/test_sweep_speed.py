@@ -17,7 +17,7 @@ import pandas as pd
 import psutil
 import pytest
 
-from validation.sweep import sweep
+from validation.sweeps.sweep import sweep
 
 pytest.importorskip("distributed", reason="dask.distributed is not installed (extra sweep)")
 

@@ -1,0 +1,141 @@
+"""The same block computed here and by CalculiX: compression, and sliding at mu = 0.3."""
+
+from __future__ import annotations
+
+import pandas as pd
+import pytest
+
+from fem.simulate import simulate
+from tests.validation.sliding_cases import sliding_case
+from validation.calculix.comparison import compare_with_calculix, compared, largest_differences
+from validation.calculix.export_deck import DeckOptions, write_deck
+from validation.calculix.run import CalculixError, calculix_program, run_calculix
+
+needs_calculix = pytest.mark.skipif(
+    calculix_program() is None, reason="CalculiX (ccx, Debian package calculix-ccx) is missing"
+)
+#: Seconds after which CalculiX is given up; on a free processor each run takes up to 20.
+TIMEOUT = 300.0
+BONDED = DeckOptions(bonded=True)
+
+
+def bonded_case(nx):
+    """A 20 x 10 mm block that sticks to the road everywhere, pressed in by about 1 mm."""
+    return sliding_case(
+        nx, nx // 2, height=10.0, friction__mu=50.0, loading__distance_mm=0.02,
+        loading__mean_pressure_N_per_mm2=0.72, rubber__bulk_ratio=200.0 / 0.7588,
+    )  # fmt: skip
+
+
+def difference_of_bonded_block(nx, folder):
+    """Largest difference of the platen's displacement, relative."""
+    case = bonded_case(nx)
+    table = compare_with_calculix(case, folder, BONDED, timeout_s=TIMEOUT)
+    assert set(table["phase"]) == {"pressing"}
+    assert table["coordinate"].max() == pytest.approx(14.4)
+    largest = largest_differences(table)
+    assert largest["pressing", "contact_length_mm"] < 1e-6
+    return largest["pressing", "platen_displacement_mm"]
+
+
+@needs_calculix
+def test_bonded_block_is_pressed_in_alike(tmp_path):
+    assert difference_of_bonded_block(40, tmp_path) < 0.02
+
+
+@needs_calculix
+@pytest.mark.slow
+def test_bonded_blocks_agree_better_on_a_finer_mesh(tmp_path):
+    """The difference is one of elements: it goes down with the mesh width, at least linearly."""
+    coarse, fine = (difference_of_bonded_block(nx, tmp_path) for nx in (40, 80))
+    assert fine < 0.005
+    assert fine < 0.5 * coarse
+
+
+@needs_calculix
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "top, velocity", [("platen", 300.0), ("platen", -300.0), ("pressure", 300.0)]
+)
+def test_sliding_block_at_mu_0_3(top, velocity, tmp_path):
+    """Cells of 0.31 mm: a node that lifts off a step sooner changes the length by 1.6 %."""
+    case = sliding_case(64, 20, loading__top=top, loading__velocity_mm_per_s=velocity)
+    table = compare_with_calculix(case, tmp_path, timeout_s=TIMEOUT)
+    assert largest_differences(table).max() < 0.02
+    sliding = table[table["phase"] == "sliding"]
+    assert sliding["coordinate"].max() == pytest.approx(2.0)
+    end = sliding[sliding["coordinate"] == sliding["coordinate"].max()].set_index("quantity")
+    assert end.loc["friction_force_N_per_mm", "ours"] == pytest.approx(1.5, rel=1e-6)
+    assert (end["relative_difference"].abs() < 0.01).all()
+
+
+@needs_calculix
+@pytest.mark.slow
+def test_block_at_mu_0_6_before_its_edge_rolls_under(tmp_path):
+    """Behind the snap there are several folded equilibria, and nothing to compare."""
+    case = sliding_case(64, 20, friction__mu=0.6, loading__distance_mm=0.9)
+    table = compare_with_calculix(case, tmp_path, timeout_s=TIMEOUT)
+    assert table["coordinate"][table["phase"] == "sliding"].max() == pytest.approx(0.9)
+    assert largest_differences(table).max() < 0.02
+
+
+@needs_calculix
+@pytest.mark.slow
+def test_graded_mesh_at_mu_0_3(tmp_path):
+    case = sliding_case(block__mesh="coarse")
+    table = compare_with_calculix(case, tmp_path, timeout_s=TIMEOUT)
+    assert largest_differences(table).max() < 0.02
+
+
+@needs_calculix
+def test_deck_that_does_not_converge_is_an_error_in_one_line(tmp_path):
+    deck = write_deck(sliding_case(), tmp_path / "deck.inp")
+    deck.write_text(deck.read_text().replace("TYPE=C3D8R", "TYPE=C3D99"))
+    with pytest.raises(CalculixError, match="did not finish") as caught:
+        run_calculix(deck)
+    assert "\n" not in str(caught.value)
+
+
+def test_missing_calculix_is_named_with_its_package(tmp_path, monkeypatch):
+    monkeypatch.setattr("validation.calculix.run.PROGRAM", "no-such-program")
+    with pytest.raises(CalculixError, match="calculix-ccx"):
+        run_calculix(tmp_path / "deck.inp")
+
+
+@pytest.fixture(scope="module")
+def result():
+    return simulate(sliding_case())
+
+
+COLUMNS = [
+    "sliding_distance_mm",
+    "normal_force_N_per_mm",
+    "friction_force_N_per_mm",
+    "contact_length_mm",
+    "platen_displacement_mm",
+]
+
+
+def test_equal_histories_differ_by_nothing(result):
+    table = compared(result, result.history[COLUMNS])
+    assert set(table["phase"]) == {"pressing", "sliding"}
+    assert table["relative_difference"].abs().max() < 1e-12
+
+
+def test_a_difference_shows_at_its_size(result):
+    theirs = result.history[COLUMNS].assign(
+        platen_displacement_mm=1.03 * result.history["platen_displacement_mm"]
+    )
+    largest = largest_differences(compared(result, theirs))
+    assert largest["sliding", "platen_displacement_mm"] == pytest.approx(0.03)
+    unchanged = [key for key in largest.index if key[1] != "platen_displacement_mm"]
+    assert len(unchanged) == 3
+    assert largest[unchanged].max() < 1e-12
+
+
+def test_only_what_the_other_code_reached_is_compared(result):
+    half = result.history[COLUMNS][result.history["sliding_distance_mm"] < 1.0]
+    table = compared(result, half)
+    reached = table.loc[table["phase"] == "sliding", "coordinate"]
+    assert reached.max() == pytest.approx(half["sliding_distance_mm"].max())
+    assert isinstance(table, pd.DataFrame)

@@ -1,0 +1,1 @@
+"""The same case in CalculiX: input decks, runs and their comparison."""

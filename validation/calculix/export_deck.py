@@ -1,0 +1,171 @@
+"""Input deck of a case for CalculiX, in keywords it shares with ABAQUS.
+
+Exported: the mesh as one layer of bricks in plane strain, the rubber, a rigid road, Coulomb
+friction, pressing and sliding. Not exported: heat, inertia, the Kelvin-Voigt regularisation and
+contact of the block with itself. The deck says so in its heading.
+
+The time of the deck runs from 0 to 1 while the block is pressed, and then goes on with the sliding
+distance in mm. Both are in one step, driven by amplitudes: with a step of its own for the sliding,
+CalculiX 2.20 broke off in the first sliding increment, however small, in five of six variants of
+contact formulation and stiffness; in one step all seven variants tried went through.
+
+Bricks and contact were chosen by measurement (version 2.20, tread block of the tests):
+
+- A bonded block of 40 x 20 (80 x 40) cells is pressed in 0.7 % (0.1 %) less with C3D8R than with
+  the Q1P0 elements used here, 0.6 % (0.8 %) more with C3D8I, which takes up to nine times as long,
+  and 14 % (8 %) less with C3D8, which locks.
+- With node-to-surface contact the platen agrees to 0.5 % at all distances. With surface-to-surface
+  contact it sinks 1.5 to 2 % deeper from the first slip on, and comes back at the end of the slide.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from contact.friction import CoulombFriction
+from fem.case import Case
+from fem.case_errors import CaseError
+from fem.mesh import BlockMesh
+from fem.model_parts import mesh_of
+from validation.calculix.deck_event import PRESSING_TIME, event_lines
+from validation.calculix.deck_material import hyperelastic_card, numbers
+from validation.calculix.deck_mesh import block_lines, free_surface_lines, road_lines, tie_lines
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeckOptions:
+    """What a deck needs beyond the case.
+
+    Attributes
+    ----------
+    element : {"C3D8R", "C3D8I", "C3D8"}
+        Brick of the block.
+    contact : {"NODE TO SURFACE", "SURFACE TO SURFACE"}
+        Contact formulation.
+    penetration : float
+        Depth the mean pressure presses the surface into the road, over the block's height [-]. It
+        sets the normal stiffness of the penalty contact.
+    elastic_slip : float
+        Slip before friction is fully mobilised at the mean pressure, over the height [-]. It sets
+        the tangential stiffness.
+    bonded : bool
+        The bottom is glued to the road, and the block is only pressed.
+    """
+
+    element: Literal["C3D8R", "C3D8I", "C3D8"] = "C3D8R"
+    contact: Literal["NODE TO SURFACE", "SURFACE TO SURFACE"] = "NODE TO SURFACE"
+    penetration: float = 5e-5
+    elastic_slip: float = 2e-4
+    bonded: bool = False
+
+
+def input_deck(case: Case, options: DeckOptions | None = None) -> str:
+    """Input deck of a case.
+
+    Parameters
+    ----------
+    case : Case
+        The case; its rubber must have a Yeoh, Mooney-Rivlin or neo-Hookean energy.
+    options : DeckOptions, optional
+
+    Returns
+    -------
+    str
+        Text of the deck.
+
+    Raises
+    ------
+    CaseError
+        If CalculiX has no such rubber, or the block is rigid.
+    """
+    options = options or DeckOptions()
+    if case.block.rigid:
+        raise CaseError(
+            file=case.source,
+            key="block.rigid",
+            found="true",
+            expected="false: a rigid block has nothing to export",
+        )
+    mesh = mesh_of(case)
+    lines = [
+        *_heading(case, options),
+        *block_lines(mesh, options.element),
+        "*MATERIAL, NAME=RUBBER",
+        *hyperelastic_card(case),
+        "*SOLID SECTION, ELSET=RUBBER, MATERIAL=RUBBER",
+        *tie_lines(mesh, platen=case.loading.top == "platen", bonded=options.bonded),
+        *([] if options.bonded else _road_and_contact(case, mesh, options)),
+        "*BOUNDARY",
+        "BLOCK, 3, 3",
+        "GLUED, 1, 2" if options.bonded else "ROAD, 1, 3",
+        *event_lines(case, mesh, bonded=options.bonded),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def write_deck(case: Case, path: str | Path, options: DeckOptions | None = None) -> Path:
+    """Write the input deck of a case into a file."""
+    text = input_deck(case, options)
+    Path(path).write_text(text, encoding="utf-8")
+    return Path(path)
+
+
+def friction_coefficient(case: Case) -> float:
+    """Coefficient of the deck: the law at mean pressure, final speed, reference temperature."""
+    law = case.friction.plain_law()
+    pressure, speed = case.loading.mean_pressure_N_per_mm2, abs(case.loading.velocity_mm_per_s)
+    return float(law.coefficient(pressure, speed))
+
+
+def friction_remark(case: Case) -> str:
+    """Sentence that says what a law other than Coulomb's was replaced with, or nothing."""
+    if isinstance(case.friction.plain_law(), CoulombFriction):
+        return ""
+    return (
+        f"friction law {case.friction.law} replaced by a constant coefficient "
+        f"{friction_coefficient(case):.6g}, its value at "
+        f"{case.loading.mean_pressure_N_per_mm2:g} N/mm^2, "
+        f"{abs(case.loading.velocity_mm_per_s):g} mm/s and the reference temperature"
+    )
+
+
+def _heading(case: Case, options: DeckOptions) -> list[str]:
+    lines = [
+        "treadfem: pressed and sliding tread block, plane strain, 1 mm deep; N, mm",
+        f"case {Path(case.source).name}, content {case.hash()[:16]}",
+        f"time 0 to {PRESSING_TIME:g}: pressing; then {PRESSING_TIME:g} + sliding distance [mm]",
+        "left out: heat, inertia, Kelvin-Voigt regularisation, contact of the block with itself",
+        "written for CalculiX. ABAQUS reads the second number of *FRICTION otherwise (leave it",
+        "out) and wants TOTALS=YES where TOTALS=ONLY stands; the deck was not run with ABAQUS",
+    ]
+    if options.bonded:
+        lines.append("the bottom is glued to the road; nothing slides")
+    elif remark := friction_remark(case):
+        lines.append(remark)
+    return ["*HEADING", lines[0], *(f"** {line}" for line in lines[1:])]
+
+
+def _road_and_contact(case: Case, mesh: BlockMesh, options: DeckOptions) -> list[str]:
+    pressure, mu = case.loading.mean_pressure_N_per_mm2, friction_coefficient(case)
+    behaviour = [pressure / (options.penetration * mesh.height)]
+    if options.contact == "NODE TO SURFACE":
+        # Tension at a large gap: how sharply the law bends at first touch.
+        behaviour.append(1e-3 * pressure)
+    lines = [
+        *road_lines(mesh, case.loading.distance_mm),
+        "*MATERIAL, NAME=ROAD",
+        "*ELASTIC",
+        "210000., 0.3",
+        "*SOLID SECTION, ELSET=ROADBODY, MATERIAL=ROAD",
+        *free_surface_lines(mesh),
+        f"*CONTACT PAIR, INTERACTION=ROADCONTACT, TYPE={options.contact}",
+        "FREE, ROADTOP",
+        "*SURFACE INTERACTION, NAME=ROADCONTACT",
+        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+        numbers(*behaviour),
+    ]
+    if mu > 0.0:
+        lines += ["*FRICTION", numbers(mu, mu * pressure / (options.elastic_slip * mesh.height))]
+    return lines

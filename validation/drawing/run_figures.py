@@ -1,0 +1,89 @@
+"""The pictures of one run: history, bottom surface, final state."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from fem.columns import HISTORY, SURFACE
+from fem.results import HISTORY_FILE, SURFACE_FILE, Result, read_summary, read_table
+from validation.drawing.history_panels import (
+    draw_contact,
+    draw_forces,
+    draw_friction,
+    draw_surface_temperature,
+    draw_surface_traction,
+    draw_temperature,
+)
+from validation.drawing.state_panels import PANELS, WIDTHS, draw_fields, last_state
+from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
+
+
+def write_run_figures(directory: str | Path) -> list[Path]:
+    """Draw what a run's folder holds into its `figures`: `history`, `surface`, `final_state`.
+
+    Parameters
+    ----------
+    directory : str or Path
+        A folder that `Result.write` made. Without field files the final state is left out.
+
+    Returns
+    -------
+    list of Path
+        The pictures; none for a run without an accepted step.
+    """
+    directory = Path(directory)
+    history = read_table(directory / HISTORY_FILE, HISTORY)
+    surface = read_table(directory / SURFACE_FILE, SURFACE)
+    T_max = read_summary(directory)["T_max_C"]
+    figures = directory / "figures"
+    paths = []
+    if len(history) > 1:
+        paths.append(save(draw_history(history), figures / "history.png"))
+    if len(surface) > 1:
+        paths.append(save(draw_surface(surface, T_max), figures / "surface.png"))
+    if any(directory.glob("block_*.vtu")):
+        paths.append(save(draw_final_state(Result.read(directory)), figures / "final_state.png"))
+    return paths
+
+
+@styled
+def draw_history(history: pd.DataFrame) -> Figure:
+    """Draw friction, forces, temperatures and contact over the sliding distance."""
+    figure = new_figure(PAGE_WIDTH, 120.0)
+    axes = figure.subplots(2, 2)
+    draw_friction(axes[0, 0], history)
+    axes[0, 0].set_title("Friction coefficient")
+    draw_forces(axes[0, 1], history)
+    axes[0, 1].set_title("Forces")
+    draw_temperature(axes[1, 0], history)
+    axes[1, 0].set_title("Temperature of the bottom surface")
+    draw_contact(axes[1, 1], history)
+    axes[1, 1].set_title("Contact")
+    return figure
+
+
+@styled
+def draw_surface(surface: pd.DataFrame, T_max: float | None) -> Figure:
+    """Draw temperature and contact stresses along the bottom surface at the end."""
+    figure = new_figure(PAGE_WIDTH, 70.0)
+    left, right = figure.subplots(1, 2)
+    draw_surface_temperature(left, surface, T_max)
+    left.set_title("Temperature (shaded: in contact)")
+    draw_surface_traction(right, surface)
+    right.set_title("Contact pressure and shear")
+    return figure
+
+
+@styled
+def draw_final_state(result: Result) -> Figure:
+    """Draw mesh, temperature and vertical stress at the end, each with the front edge.
+
+    A rigid block has no stress to draw.
+    """
+    rows = 2 if result.case.block.rigid else len(PANELS)
+    figure = new_figure(PAGE_WIDTH, 5.0 + 47.0 * rows)
+    draw_fields(figure, figure.subplots(rows, 2, width_ratios=WIDTHS), last_state(result))
+    return figure

@@ -1,0 +1,1 @@
+"""Measurements: reading them, comparing the simulation with them."""

@@ -1,0 +1,73 @@
+"""The comparison of a file of measurements with a folder of results, as files and as text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pandas as pd
+
+from fem.atomic_files import write_text
+from validation.drawing.style import save
+from validation.measured.comparison import Comparison, compare, simulated_runs
+from validation.measured.comparison_figures import draw_comparison, draw_profiles
+from validation.measured.measurements import read_measurements
+
+
+def write_comparison(measured: str | Path, results: str | Path, directory: str | Path) -> str:
+    """Compare, write the tables and pictures into a folder, and return a text to print.
+
+    Parameters
+    ----------
+    measured : str or Path
+        CSV file of measurements, see `validation.measured.measurements`.
+    results : str or Path
+        Folder of a sweep or of a run.
+    directory : str or Path
+        For `comparison.csv`, `statistics.csv`, `measured.csv` (T_max and A_T of each test),
+        `comparison.png` and, for measured profiles, `profiles.png`.
+
+    Raises
+    ------
+    DataError, CaseError
+        In one line; nothing is written then.
+    """
+    measurements = read_measurements(measured)
+    runs = simulated_runs(results)
+    comparison = compare(measurements, runs)
+    directory = Path(directory)
+    tables = {
+        "comparison.csv": comparison.table,
+        "statistics.csv": comparison.statistics,
+        "measured.csv": measurements.points.drop(columns="row"),
+    }
+    for name, table in tables.items():
+        write_text(directory / name, table.to_csv(index=False, lineterminator="\n"))
+    save(draw_comparison(comparison), directory / "comparison.png")
+    if measurements.profiles:
+        save(draw_profiles(measurements, runs), directory / "profiles.png")
+    return _text(comparison, directory)
+
+
+def _text(comparison: Comparison, directory: Path) -> str:
+    lines = ["simulated minus measured:", _shown(comparison.statistics)]
+    if comparison.unmatched:
+        lines.append(f"without a simulation: {', '.join(comparison.unmatched)}")
+    return "\n".join([*lines, f"tables and pictures in {directory}"])
+
+
+def _shown(statistics: pd.DataFrame) -> str:
+    percent: dict[str, Callable[[float], str]] = {
+        str(column): _percent
+        for column in statistics
+        if str(column).startswith(("share", "relative"))
+    }
+    text: str = statistics.to_string(
+        index=False, formatters=percent, float_format="{:.3g}".format, na_rep="-"
+    )
+    return text
+
+
+def _percent(share: float) -> str:
+    return "-" if math.isnan(share) else f"{share:.0%}"

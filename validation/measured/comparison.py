@@ -1,0 +1,300 @@
+"""Measurements against simulations: which belong together, and how far they are apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from calibration.errors import DataError
+from fem.case import Case
+from fem.case_errors import CaseError
+from fem.columns import SURFACE
+from fem.outcome import OK
+from fem.results import (
+    CASE_FILE,
+    SUMMARY_CSV,
+    SUMMARY_JSON,
+    SURFACE_FILE,
+    read_summary,
+    read_table,
+)
+from validation.measured.measurements import QUANTITIES, Measurements
+
+_PRESSURE, _VELOCITY = "loading.mean_pressure_N_per_mm2", "loading.velocity_mm_per_s"
+#: Measured conditions and how far a simulation may be from them [-]. The mean contact pressure is a
+#: result, which varies with friction; the others are inputs.
+TOLERANCES = {"p_N_per_mm2": 0.15, "mean_pressure_N_per_mm2": 0.02, "v_mm_per_s": 0.02}
+#: Limits of the temperature error that are counted: the accuracy of the measurement (0.5 to 1 K)
+#: and what the paper calls sufficient (section 5.2) [K].
+LIMITS_K = (0.5, 1.0, 2.0)
+ALL = "all"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """Measured beside simulated.
+
+    Attributes
+    ----------
+    table : DataFrame
+        A row per quantity of each measured test and simulation that belong together.
+    statistics : DataFrame
+        Bias, RMSE and shares within limits, per variant of the simulation and quantity.
+    unmatched : list of str
+        Tests without a simulation.
+    """
+
+    table: pd.DataFrame
+    statistics: pd.DataFrame
+    unmatched: list[str]
+
+
+def simulated_runs(directory: str | Path) -> pd.DataFrame:
+    """Finished runs of a sweep (or of a folder of figures, or a single run), a row each.
+
+    Returns
+    -------
+    DataFrame
+        `case, folder, variant` (what tells simulations apart beside pressure and velocity),
+        `compound, law`, the conditions of `TOLERANCES`, and `QUANTITIES`.
+
+    Raises
+    ------
+    CaseError
+        If the folder holds no finished run.
+    """
+    directory = Path(directory)
+    rows, cases = [], []
+    for folder in _run_folders(directory):
+        try:
+            case, summary = Case.from_toml(folder / CASE_FILE), read_summary(folder)
+        except ValueError:
+            continue
+        if summary["status"] == OK:
+            cases.append(case)
+            rows.append({"case": folder.name, "folder": folder} | _of_run(case, summary))
+    if not rows:
+        raise CaseError(
+            file=str(directory),
+            key="RESULTS_DIR",
+            found="no finished run",
+            expected="the folder of a sweep or of a run",
+        )
+    return pd.DataFrame(rows).assign(variant=_variants(cases))
+
+
+def _run_folders(directory: Path) -> list[Path]:
+    runs = directory / "runs"
+    if not runs.is_dir():
+        return [directory] if (directory / SUMMARY_JSON).is_file() else []
+    table = directory / SUMMARY_CSV
+    if table.is_file():
+        # Beside the runs of this sweep there may be those of another one.
+        try:
+            names = pd.read_csv(table, dtype=str)["case"]
+            return [runs / name for name in names]
+        except (KeyError, ValueError):
+            pass
+    return sorted(path for path in runs.iterdir() if (path / SUMMARY_JSON).is_file())
+
+
+def _of_run(case: Case, summary: Mapping[str, Any]) -> dict[str, Any]:
+    contact_pressure = summary["mean_contact_pressure_N_per_mm2"]
+    return {
+        "compound": case.rubber.compound or "",
+        "law": case.friction.law,
+        "p_N_per_mm2": np.nan if contact_pressure is None else contact_pressure,
+        "mean_pressure_N_per_mm2": case.loading.mean_pressure_N_per_mm2,
+        "v_mm_per_s": abs(case.loading.velocity_mm_per_s),
+        **{key: np.nan if summary[key] is None else summary[key] for key in QUANTITIES},
+    }
+
+
+def _variants(cases: list[Case]) -> list[str]:
+    """What differs between the cases beside pressure, velocity and output, in words."""
+    flat = [_flat(case.to_dict()) for case in cases]
+    shared = [key for key in flat[0] if all(key in other for other in flat)]
+    told_apart = [
+        key
+        for key in shared
+        if key not in (_PRESSURE, _VELOCITY)
+        and not key.startswith("output.")
+        and any(other[key] != flat[0][key] for other in flat)
+    ]
+    return [
+        ", ".join(f"{key.split('.')[-1]} {other[key]}" for key in told_apart) or "one variant"
+        for other in flat
+    ]
+
+
+def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            flat |= _flat(value, f"{prefix}{key}.")
+        else:
+            flat[f"{prefix}{key}"] = value
+    return flat
+
+
+def matching(point: Mapping[str, Any], runs: pd.DataFrame) -> pd.DataFrame:
+    """Simulations of a measured test: of each variant the one nearest in contact pressure.
+
+    What the test does not state (empty or NaN) excludes nothing.
+    """
+    fits = np.ones(len(runs), dtype=bool)
+    for name in ("compound", "law"):
+        if point[name]:
+            fits &= (runs[name] == point[name]).to_numpy()
+    for name, tolerance in TOLERANCES.items():
+        if np.isfinite(point[name]):
+            distance = (runs[name] / point[name] - 1.0).abs().to_numpy()
+            fits &= distance <= tolerance
+    found = runs[fits]
+    if np.isfinite(point["p_N_per_mm2"]) and len(found):
+        distance = (found["p_N_per_mm2"] - point["p_N_per_mm2"]).abs()
+        found = found.loc[distance.groupby([found["variant"], found["v_mm_per_s"]]).idxmin()]
+    return found
+
+
+def compare(measurements: Measurements, runs: pd.DataFrame) -> Comparison:
+    """Put measured and simulated values beside each other.
+
+    Parameters
+    ----------
+    measurements : Measurements
+        What was measured.
+    runs : DataFrame
+        What `simulated_runs` gives.
+
+    Raises
+    ------
+    DataError
+        If nothing belongs together, or a test fits several conditions it does not state.
+    """
+    rows: list[dict[str, Any]] = []
+    unmatched = []
+    for point in measurements.points.to_dict("records"):
+        found = matching({str(key): value for key, value in point.items()}, runs)
+        _check_unique(found, point, measurements.file)
+        if found.empty:
+            unmatched.append(str(point["run"]))
+        for run in found.to_dict("records"):
+            rows += [
+                _row(point, run, quantity)
+                for quantity in QUANTITIES
+                if np.isfinite(point[quantity]) and np.isfinite(run[quantity])
+            ]
+    if not rows:
+        raise DataError(
+            file=measurements.file, found="no test that was simulated", expected=_offer(runs)
+        )
+    table = pd.DataFrame(rows)
+    return Comparison(table=table, statistics=statistics(table), unmatched=unmatched)
+
+
+def _check_unique(found: pd.DataFrame, point: Mapping[Any, Any], file: str) -> None:
+    """Refuse a test that leaves open which of several velocities or pressures it had."""
+    doubled = found[found["variant"].duplicated(keep=False)]
+    if doubled.empty:
+        return
+    velocity = doubled.groupby("variant")["v_mm_per_s"].nunique().max() > 1
+    column = "v_mm_per_s" if velocity else "p_N_per_mm2"
+    values = ", ".join(f"{value:.4g}" for value in sorted(set(doubled[column])))
+    raise DataError(
+        file=file,
+        row=int(point["row"]),
+        column=column,
+        found=f"test {point['run']} that fits several simulations",
+        expected=f"one of {values}",
+    )
+
+
+def _offer(runs: pd.DataFrame) -> str:
+    compounds = ", ".join(sorted(set(runs["compound"]) - {""})) or "(constants)"
+    velocities = ", ".join(f"{v:g}" for v in sorted(set(runs["v_mm_per_s"])))
+    pressures = ", ".join(f"{p:.3g}" for p in sorted(set(runs["p_N_per_mm2"].round(3))))
+    return (
+        f"one of the compounds {compounds}, v_mm_per_s {velocities}, p_N_per_mm2 {pressures} "
+        f"(within {TOLERANCES['p_N_per_mm2']:.0%})"
+    )
+
+
+def _row(point: Mapping[Any, Any], run: Mapping[Any, Any], quantity: str) -> dict[str, Any]:
+    measured, simulated = float(point[quantity]), float(run[quantity])
+    error = simulated - measured
+    # A temperature has no natural zero; its error is related to the measured rise.
+    reference = measured - point["T_0_C"] if quantity == "T_max_C" else measured
+    return {
+        "run": point["run"],
+        "case": run["case"],
+        "variant": run["variant"],
+        "compound": run["compound"],
+        "law": run["law"],
+        "v_mm_per_s": run["v_mm_per_s"],
+        "p_measured_N_per_mm2": point["p_N_per_mm2"],
+        "p_simulated_N_per_mm2": run["p_N_per_mm2"],
+        "quantity": quantity,
+        "unit": QUANTITIES[quantity],
+        "measured": measured,
+        "simulated": simulated,
+        "error": error,
+        "relative_error": error / reference if reference else np.nan,
+    }
+
+
+def statistics(table: pd.DataFrame) -> pd.DataFrame:
+    """Bias, RMSE, largest error and shares of temperatures within limits.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `Comparison.table`.
+
+    Returns
+    -------
+    DataFrame
+        A row per variant and quantity, and over all variants if there are several. The errors are
+        simulated minus measured, in the unit of the quantity; shares and relative errors in 1.
+    """
+    groups = [(variant, part) for variant, part in table.groupby("variant", sort=False)]
+    if len(groups) > 1:
+        groups.append((ALL, table))
+    return pd.DataFrame(
+        [
+            {"variant": variant, "quantity": quantity, "unit": unit} | _moments(own, quantity)
+            for variant, part in groups
+            for quantity, unit in QUANTITIES.items()
+            if len(own := part[part["quantity"] == quantity])
+        ]
+    )
+
+
+def _moments(part: pd.DataFrame, quantity: str) -> dict[str, float]:
+    error, relative = part["error"].to_numpy(), part["relative_error"].to_numpy()
+    is_temperature = quantity == "T_max_C"
+    shares = {
+        f"share_within_{limit:g}_K": float(np.mean(np.abs(error) <= limit))
+        if is_temperature
+        else np.nan
+        for limit in LIMITS_K
+    }
+    return {
+        "n": len(error),
+        "bias": float(error.mean()),
+        "rmse": float(np.sqrt(np.mean(error**2))),
+        "largest_error": float(error[np.argmax(np.abs(error))]),
+        "relative_bias": float(relative.mean()),
+        "relative_rmse": float(np.sqrt(np.mean(relative**2))),
+        **shares,
+    }
+
+
+def surface_of(run: Mapping[Any, Any]) -> pd.DataFrame:
+    """Temperature profile of a simulated run, `X_mm` and `T_C`."""
+    return read_table(Path(run["folder"]) / SURFACE_FILE, SURFACE)[["X_mm", "T_C"]]

@@ -1,0 +1,62 @@
+"""Figure 10: temperature of the bottom surface for the six parameter sets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from validation.drawing.compound_names import COMPOUND_LOOKS
+from validation.drawing.state_panels import reached
+from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
+from validation.paper.fig9 import COMPOUND
+from validation.sweeps.study import STUDIES, StudyRun, study_runs
+
+
+def make(directory: Path) -> Path:
+    """Draw figure 10 from the study of compounds and write the curves beside it."""
+    runs = study_runs(STUDIES / "compounds.toml", directory)
+    profile_table(runs, {"compound": COMPOUND}).to_csv(
+        directory / "fig10.csv", index=False, lineterminator="\n"
+    )
+    return save(draw(runs), directory / "fig10.png")
+
+
+def profile_table(runs: list[StudyRun], columns: dict[str, str]) -> pd.DataFrame:
+    """Temperature profiles of all runs below each other, told apart by columns of case keys."""
+    parts = []
+    for run in runs:
+        told_apart = {column: run[key] for column, key in columns.items()}
+        parts.append(run.result.surface[["X_mm", "T_C"]].assign(**told_apart))
+    return pd.concat(parts, ignore_index=True)[[*columns, "X_mm", "T_C"]]
+
+
+@styled
+def draw(runs: list[StudyRun]) -> Figure:
+    """Draw one curve per compound with its interior maximum in the legend."""
+    figure = new_figure(PAGE_WIDTH, 100.0)
+    axes = figure.subplots()
+    by_name = {run[COMPOUND]: run.result for run in runs}
+    for name, look in COMPOUND_LOOKS.items():
+        if name in by_name:
+            result = by_name[name]
+            axes.plot(
+                result.surface["X_mm"],
+                result.surface["T_C"],
+                color=look.colour,
+                ls=look.dash,
+                label=f"{look.label}: {_degrees(result.summary['T_max_C'])}{reached(result)}",
+            )
+    axes.set_xlabel("$X$ from the trailing to the leading corner [mm]")
+    axes.set_ylabel("$T$ at the bottom surface [°C]")
+    axes.set_xlim(0.0, max(float(run.result.surface["X_mm"].max()) for run in runs))
+    handles, labels = axes.get_legend_handles_labels()
+    title = "with the interior maximum $T_{max}$"
+    figure.legend(handles, labels, loc="outside lower center", ncols=2, title=title)
+    axes.grid(True)
+    return figure
+
+
+def _degrees(value: float | None) -> str:
+    return "-" if value is None else f"{value:.1f} °C"

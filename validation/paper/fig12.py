@@ -1,0 +1,109 @@
+"""Figure 12: T_max and A_T over contact pressure, velocity, friction law and compound."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from validation.drawing.compound_names import COMPOUND_LOOKS
+from validation.drawing.style import BLACK, PAGE_WIDTH, new_figure, save, styled
+from validation.measured.measured_points import MEASURED_MARK, draw_measured_points
+from validation.measured.measurements import Measurements
+from validation.paper.fig11 import LAW_LABELS, LAW_LOOKS
+from validation.sweeps.study import STUDIES, StudyRun, study_runs
+
+#: Columns of the table and the case keys or summary keys they come from.
+KEYS = {
+    "compound": "rubber.compound",
+    "law": "friction.law",
+    "velocity_mm_per_s": "loading.velocity_mm_per_s",
+    "mean_pressure_N_per_mm2": "loading.mean_pressure_N_per_mm2",
+}
+RESULTS = (
+    "status",
+    "T_max_C",
+    "A_T_K_mm",
+    "friction_coefficient",
+    "mean_contact_pressure_N_per_mm2",
+)
+QUANTITIES = {"T_max_C": r"$T_{max}$ [°C]", "A_T_K_mm": "$A_T$ [K mm]"}
+
+
+def make(directory: Path, measured: Measurements | None = None) -> Path:
+    """Draw figure 12 from the study of pressures and write the points beside it.
+
+    Measured points are drawn into the panel of their velocity.
+    """
+    table = point_table(study_runs(STUDIES / "pressures.toml", directory))
+    table.to_csv(directory / "fig12.csv", index=False, lineterminator="\n")
+    return save(draw(table, measured), directory / "fig12.png")
+
+
+def point_table(runs: list[StudyRun]) -> pd.DataFrame:
+    """One row per run: compound, law, velocity, pressure, T_max, A_T."""
+    return pd.DataFrame(
+        [
+            {column: run[key] for column, key in KEYS.items()}
+            | {key: run.result.summary[key] for key in RESULTS}
+            for run in runs
+        ]
+    )
+
+
+@styled
+def draw(table: pd.DataFrame, measured: Measurements | None = None) -> Figure:
+    """Draw T_max in the upper and A_T in the lower row, a column per velocity.
+
+    Measured points are black and filled, their marker says the compound where it is stated.
+    Runs that did not get to their end are in the table only.
+    """
+    table = table[table["status"] == "ok"]
+    velocities = sorted(table["velocity_mm_per_s"].unique())
+    figure = new_figure(PAGE_WIDTH, 125.0)
+    panels = figure.subplots(2, len(velocities), sharex=True, squeeze=False)
+    for row, (quantity, label) in zip(panels, QUANTITIES.items(), strict=True):
+        for axes, velocity in zip(row, velocities, strict=True):
+            _draw_points(axes, table[table["velocity_mm_per_s"] == velocity], quantity)
+            draw_measured_points(axes, measured, velocity, quantity)
+            axes.grid(True)
+        row[0].set_ylabel(label)
+    for axes, velocity in zip(panels[0], velocities, strict=True):
+        axes.set_title(f"$v$ = {velocity:g} mm/s")
+    for axes in panels[1]:
+        axes.set_xlabel("mean contact pressure [N/mm²]")
+    marks = [] if measured is None else [MEASURED_MARK]
+    figure.legend(handles=[*_legend(table), *marks], loc="outside lower center", ncols=2)
+    return figure
+
+
+def _draw_points(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
+    for (compound, law), points in table.groupby(["compound", "law"]):
+        line = points.sort_values("mean_contact_pressure_N_per_mm2")
+        colour, dash = LAW_LOOKS[str(law)]
+        axes.plot(
+            line["mean_contact_pressure_N_per_mm2"],
+            line[quantity],
+            color=colour,
+            ls=dash,
+            lw=0.9,
+            marker=COMPOUND_LOOKS[str(compound)].marker,
+            mfc="white",
+        )
+
+
+def _legend(table: pd.DataFrame) -> list[Line2D]:
+    laws = [
+        Line2D([], [], color=LAW_LOOKS[law][0], ls=LAW_LOOKS[law][1], label=LAW_LABELS[law])
+        for law in LAW_LABELS
+        if law in set(table["law"])
+    ]
+    compounds = [
+        Line2D([], [], color=BLACK, ls="", mfc="white", marker=look.marker, label=look.label)
+        for name, look in COMPOUND_LOOKS.items()
+        if name in set(table["compound"])
+    ]
+    return [*laws, *compounds]

@@ -1,0 +1,112 @@
+"""Figure 4: friction coefficient over sliding velocity and contact pressure, both laws."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.figure import Figure
+
+from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction
+from validation.drawing.style import (
+    BLACK,
+    CURVES,
+    GREY,
+    PAGE_WIDTH,
+    STRESS_MAP,
+    new_figure,
+    save,
+    styled,
+)
+
+LAWS: dict[str, FrictionLaw] = {
+    "exponential": ExponentialFriction(),
+    "huemer": HuemerFriction(),
+}
+TITLES = {"exponential": "(a) Exponential law (5)", "huemer": "(b) Law by Huemer (6)"}
+VELOCITIES_MM_PER_S = np.geomspace(1.0, 1000.0, 121)
+PRESSURES_N_PER_MM2 = np.geomspace(0.05, 1.0, 61)
+#: Pressures and velocities of the paper's simulations (Fig. 12).
+SHOWN_PRESSURES, SHOWN_VELOCITIES = (0.2, 0.3, 0.4), (7.0, 50.0, 300.0)
+LEVELS = np.arange(14, 23) * 0.05
+
+
+def make(directory: Path) -> Path:
+    """Draw figure 4 and write the table of both laws beside it."""
+    table = friction_table()
+    table.to_csv(directory / "fig4.csv", index=False, lineterminator="\n", float_format="%.6g")
+    return save(draw(table), directory / "fig4.png")
+
+
+def friction_table() -> pd.DataFrame:
+    """Both laws with the parameters of Table 2 on a grid of pressure and velocity."""
+    p, v = np.meshgrid(PRESSURES_N_PER_MM2, VELOCITIES_MM_PER_S, indexing="ij")
+    columns = {"p_N_per_mm2": p.ravel(), "v_mm_per_s": v.ravel()}
+    for name, law in LAWS.items():
+        columns[f"mu_{name}"] = law.coefficient(p, v).ravel()
+    return pd.DataFrame(columns)
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw a map of each law and, below, both laws over the velocity at three pressures."""
+    figure = new_figure(PAGE_WIDTH, 140.0)
+    panels = figure.subplot_mosaic([["exponential", "huemer"], ["curves", "pressure"]])
+    for name in LAWS:
+        field = _draw_map(panels[name], table, name)
+    place = panels["huemer"].inset_axes((1.03, 0.0, 0.035, 1.0))
+    figure.colorbar(field, cax=place, label=r"$\mu$ [-]")
+    _draw_over_velocity(panels["curves"])
+    _draw_over_pressure(panels["pressure"])
+    return figure
+
+
+def _draw_map(axes: Axes, table: pd.DataFrame, name: str) -> ScalarMappable:
+    mu = table.pivot(index="p_N_per_mm2", columns="v_mm_per_s", values=f"mu_{name}")
+    v, p, values = mu.columns.to_numpy(), mu.index.to_numpy(), mu.to_numpy()
+    field = axes.contourf(v, p, values, LEVELS, cmap=STRESS_MAP, extend="both")
+    lines = axes.contour(v, p, values, LEVELS[::2], colors=BLACK, linewidths=0.6)
+    axes.clabel(lines, fmt="%.1f", fontsize=7)
+    axes.set_xscale("log")
+    axes.set_xlabel("sliding velocity $v$ [mm/s]")
+    axes.set_ylabel("contact pressure $p$ [N/mm²]")
+    axes.set_title(TITLES[name])
+    return field
+
+
+def _draw_over_velocity(axes: Axes) -> None:
+    v = VELOCITIES_MM_PER_S
+    for p, colour in zip(SHOWN_PRESSURES, CURVES, strict=False):
+        for name, dash in (("huemer", "-"), ("exponential", "--")):
+            label = f"$p$ = {p:g} N/mm²" if name == "huemer" else None
+            axes.plot(v, LAWS[name].coefficient(p, v), color=colour, ls=dash, label=label)
+    peak = HuemerFriction().peak_velocity
+    axes.axvline(peak, color=GREY, lw=0.7, ls=":")
+    axes.text(
+        peak * 0.93, 1.02, f"peak of (6): {peak:.1f} mm/s", ha="right", fontsize=7, color=GREY
+    )
+    axes.set_xscale("log")
+    axes.set_xlim(v[0], v[-1])
+    axes.set_ylim(0.6, 1.05)
+    axes.set_xlabel("sliding velocity $v$ [mm/s]")
+    axes.set_ylabel(r"$\mu$ [-]")
+    axes.legend(loc="lower right", title="full: (6), dashed: (5)")
+    axes.set_title("(c) Over the velocity")
+    axes.grid(True)
+
+
+def _draw_over_pressure(axes: Axes) -> None:
+    p = PRESSURES_N_PER_MM2
+    for v, colour in zip(SHOWN_VELOCITIES, CURVES[3:], strict=False):
+        for name, dash in (("huemer", "-"), ("exponential", "--")):
+            label = f"$v$ = {v:g} mm/s" if name == "huemer" else None
+            axes.plot(p, LAWS[name].coefficient(p, v), color=colour, ls=dash, label=label)
+    axes.set_xlim(0.0, p[-1])
+    axes.set_xlabel("contact pressure $p$ [N/mm²]")
+    axes.set_ylabel(r"$\mu$ [-]")
+    axes.legend(loc="upper right", title="full: (6), dashed: (5)")
+    axes.set_title("(d) Over the pressure")
+    axes.grid(True)

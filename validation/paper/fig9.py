@@ -1,0 +1,157 @@
+"""Figure 9: vertical normal stress on the deformed block for the six parameter sets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from fem.snapshot import FloatArray
+from validation.drawing.block_drawing import (
+    Window,
+    draw_outline,
+    draw_road,
+    draw_smooth,
+    set_window,
+)
+from validation.drawing.compound_names import COMPOUND_LOOKS
+from validation.drawing.field_panels import BlockState, stress_scale, vertical_stress
+from validation.drawing.state_panels import last_state, reached
+from validation.drawing.style import BLACK, PAGE_WIDTH, STRESS_MAP, new_figure, save, styled
+from validation.sweeps.study import STUDIES, StudyRun, study_runs
+
+COMPOUND = "rubber.compound"
+
+
+def make(directory: Path) -> Path:
+    """Draw figure 9 from the study of compounds and write extremes and contours beside it."""
+    runs = study_runs(STUDIES / "compounds.toml", directory)
+    states = by_compound(runs)
+    extremes_table(states).to_csv(directory / "fig9.csv", index=False, lineterminator="\n")
+    contour_table(states).to_csv(directory / "fig9_contours.csv", index=False, lineterminator="\n")
+    return save(draw(states, stopped(runs)), directory / "fig9.png")
+
+
+def by_compound(runs: list[StudyRun]) -> dict[str, BlockState]:
+    """The last states by compound, in the paper's order."""
+    found = {run[COMPOUND]: last_state(run.result) for run in runs}
+    return {name: found[name] for name in COMPOUND_LOOKS if name in found}
+
+
+def stopped(runs: list[StudyRun]) -> dict[str, str]:
+    """What to say of runs that did not get to their end, by compound."""
+    return {run[COMPOUND]: reached(run.result) for run in runs}
+
+
+def extremes_table(states: dict[str, BlockState]) -> pd.DataFrame:
+    """Smallest and largest vertical stress of all elements, a row per compound."""
+    rows = []
+    for name, state in states.items():
+        sigma_y = state.snapshot.cauchy_stress[:, 1]
+        rows.append(
+            {
+                "compound": name,
+                "sigma_y_min_N_per_mm2": sigma_y.min(),
+                "sigma_y_max_N_per_mm2": sigma_y.max(),
+                "largest_displacement_mm": np.linalg.norm(
+                    state.snapshot.displacement, axis=1
+                ).max(),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def contour_table(states: dict[str, BlockState]) -> pd.DataFrame:
+    """Deformed contours: the boundary nodes of every compound, in the order of the boundary."""
+    parts = []
+    for name, state in states.items():
+        x, y = contour(state).T
+        parts.append(pd.DataFrame({"compound": name, "x_mm": x, "y_mm": y}))
+    return pd.concat(parts, ignore_index=True)
+
+
+def contour(state: BlockState) -> FloatArray:
+    """Deformed free contour, rear face, bottom and front face, (m, 2) [mm]."""
+    X, Y = state.geometry.points.T
+    rear = np.flatnonzero(np.isclose(X, X.min()))
+    bottom = np.flatnonzero(np.isclose(Y, Y.min()))
+    front = np.flatnonzero(np.isclose(X, X.max()))
+    order = [rear[np.argsort(-Y[rear])], bottom[np.argsort(X[bottom])], front[np.argsort(Y[front])]]
+    return np.asarray(state.points[np.concatenate([order[0], order[1][1:-1], order[2]])])
+
+
+@styled
+def draw(states: dict[str, BlockState], notes: dict[str, str] | None = None) -> Figure:
+    """Draw a panel per compound on one scale, and all contours over each other."""
+    figure = new_figure(PAGE_WIDTH, 205.0)
+    grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 1.0, 1.0, 1.75])
+    window, norm = _common_window(states), _common_scale(states)
+    panels = []
+    for (name, state), place in zip(states.items(), list(grid)[:6], strict=False):
+        axes = figure.add_subplot(place)
+        note = (notes or {}).get(name, "")
+        field = _draw_compound(axes, name, state, window, norm, note)
+        panels.append(axes)
+    figure.colorbar(
+        field, ax=panels, label=r"$\sigma_y$ [N/mm²]", extend="both", aspect=40, pad=0.01
+    )
+    _draw_contours(figure.add_subplot(grid[3, :]), states, window)
+    return figure
+
+
+def _draw_compound(
+    axes: Axes, name: str, state: BlockState, window: Window, norm: Normalize, note: str
+) -> object:
+    cells = state.geometry.cells
+    draw_road(axes, window)
+    field = draw_smooth(axes, state.points, cells, vertical_stress(state), norm, STRESS_MAP)
+    draw_outline(axes, state.points, cells)
+    set_window(axes, window)
+    sigma_y = state.snapshot.cauchy_stress[:, 1]
+    axes.set_title(
+        f"{COMPOUND_LOOKS[name].label}\n"
+        rf"min {sigma_y.min():.2f}, max {sigma_y.max():.2f} N/mm²{note}",
+        fontsize=7.5,
+    )
+    axes.tick_params(labelsize=6.5)
+    return field
+
+
+def _draw_contours(axes: Axes, states: dict[str, BlockState], window: Window) -> None:
+    draw_road(axes, window)
+    for name, state in states.items():
+        look = COMPOUND_LOOKS[name]
+        axes.plot(*contour(state).T, color=look.colour, ls=look.dash, lw=1.0)
+    state = next(iter(states.values()))
+    X, Y = state.geometry.points.T
+    box = [(X.min(), Y.max()), (X.min(), 0.0), (X.max(), 0.0), (X.max(), Y.max())]
+    axes.plot(*zip(*box, strict=True), color=BLACK, lw=0.5, ls=":")
+    set_window(axes, window)
+    handles = [
+        Line2D([], [], color=COMPOUND_LOOKS[n].colour, ls=COMPOUND_LOOKS[n].dash, lw=1.2)
+        for n in states
+    ]
+    labels = [COMPOUND_LOOKS[n].label for n in states]
+    axes.legend(handles, labels, loc="center", bbox_to_anchor=(0.45, 0.5), fontsize=6.5)
+    axes.set_xlabel("$x$ in the platen's frame [mm]")
+    axes.set_ylabel("$y$ [mm]")
+    axes.set_title("Deformed contours (dotted: undeformed)")
+
+
+def _common_window(states: dict[str, BlockState]) -> Window:
+    windows = np.array([state.whole for state in states.values()])
+    low, high = windows.min(axis=0), windows.max(axis=0)
+    return (float(low[0]), float(high[1]), float(low[2]), float(high[3]))
+
+
+def _common_scale(states: dict[str, BlockState]) -> Normalize:
+    scales = [stress_scale(state, state.whole) for state in states.values()]
+    return Normalize(
+        min(float(scale.vmin or 0.0) for scale in scales),
+        max(float(scale.vmax or 0.0) for scale in scales),
+    )

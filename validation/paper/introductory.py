@@ -1,0 +1,31 @@
+"""The paper's introductory example (section 4.2) and where its run lies."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from fem.case import Case
+from fem.results import Result
+from fem.simulate import simulate
+from validation.sweeps.study import STUDIES, holds
+
+
+def introductory_case() -> Case:
+    """The introductory example as a case."""
+    return Case.from_toml(STUDIES / "introductory.toml")
+
+
+def introductory_run(directory: str | Path) -> Result:
+    """Read the introductory run that belongs to a folder of figures; simulate it if there is none.
+
+    `make run` leaves it in `run` beside the folder; otherwise it is simulated once into
+    `runs/introductory` inside the folder.
+    """
+    directory = Path(directory)
+    own = directory / "runs" / "introductory"
+    case = introductory_case()
+    for folder in (directory.parent / "run", own):
+        if holds(folder, case):
+            return Result.read(folder)
+    simulate(case).write(own)
+    return Result.read(own)

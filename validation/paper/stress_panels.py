@@ -1,0 +1,96 @@
+"""Panels of stress-strain tests: the cycles, the one that is used, and the parameter sets."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+
+from calibration.cycles import last_full_cycle
+from materials.compounds import compound
+from validation.drawing.compound_names import COMPOUND_LOOKS
+from validation.drawing.style import BLACK, GREY
+
+SYNTHETIC_NOTE = "synthetic test: made from the paper's parameters, not measured"
+
+
+def chosen_cycle(test: pd.DataFrame) -> int:
+    """The last full cycle at the highest strain level (section 2.2 of the paper)."""
+    number = last_full_cycle(
+        test["stretch"].to_numpy(),
+        test["cycle"].to_numpy(),
+        test["branch"].to_numpy().astype(str),
+    )
+    if number is None:
+        raise ValueError("the test has no full cycle of loading and unloading")
+    return number
+
+
+def draw_test(axes: Axes, test: pd.DataFrame) -> None:
+    """Draw all cycles thin and grey, the chosen one black, the path to failure dashed."""
+    chosen, last = chosen_cycle(test), int(test["cycle"].max())
+    labels = {"other": "other cycles", "chosen": "last full cycle, used", "last": "to failure"}
+    for number, path in test.groupby("cycle"):
+        kind = "chosen" if number == chosen else "last" if number == last else "other"
+        axes.plot(
+            100.0 * (path["stretch"] - 1.0),
+            path["nominal_stress_N_per_mm2"],
+            color=BLACK if kind == "chosen" else GREY,
+            ls="--" if kind == "last" else "-",
+            lw=1.6 if kind == "chosen" else 0.6,
+            label=labels.pop(kind, None),
+            zorder=3 if kind == "chosen" else 1,
+        )
+
+
+def draw_sets(axes: Axes, strain_percent: tuple[float, float]) -> None:
+    """Draw the uniaxial nominal stress of the six parameter sets of Table 1."""
+    table = set_table(strain_percent)
+    strain = 100.0 * (table["stretch"] - 1.0)
+    for name, look in COMPOUND_LOOKS.items():
+        axes.plot(
+            strain,
+            table[name],
+            color=look.colour,
+            ls=look.dash,
+            lw=1.1,
+            label=look.label,
+            zorder=2,
+        )
+
+
+def draw_chosen(axes: Axes, test: pd.DataFrame) -> None:
+    """Mark every third point of the chosen cycle."""
+    shown = test[test["cycle"] == chosen_cycle(test)].iloc[::3]
+    axes.plot(
+        100.0 * (shown["stretch"] - 1.0),
+        shown["nominal_stress_N_per_mm2"],
+        ls="",
+        marker="o",
+        mfc="none",
+        color=GREY,
+        ms=3.0,
+        label="synthetic, last full cycle",
+    )
+
+
+def set_table(strain_percent: tuple[float, float], points: int = 201) -> pd.DataFrame:
+    """Uniaxial nominal stress [N/mm^2] of the parameter sets; NaN beyond a locking stretch."""
+    stretch = 1.0 + np.linspace(*strain_percent, points) / 100.0
+    columns = {"stretch": stretch}
+    with np.errstate(invalid="ignore", divide="ignore"):
+        for name in COMPOUND_LOOKS:
+            stress = np.asarray(compound(name).nominal_stress(stretch, "uniaxial"), dtype=float)
+            columns[name] = np.where(np.isfinite(stress), stress, np.nan)
+    return pd.DataFrame(columns)
+
+
+def finish(axes: Axes, *, strain: tuple[float, float], stress: tuple[float, float]) -> None:
+    """Set limits, labels and grid."""
+    axes.set_xlim(*strain)
+    axes.set_ylim(*stress)
+    axes.axhline(0.0, color=GREY, lw=0.5)
+    axes.axvline(0.0, color=GREY, lw=0.5)
+    axes.set_xlabel("nominal strain [%]")
+    axes.set_ylabel("nominal stress [N/mm²]")
+    axes.grid(True)

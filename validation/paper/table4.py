@@ -1,0 +1,56 @@
+"""Table 4: mean friction force in the slip phase for the six parameter sets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+from validation.drawing.compound_names import COMPOUND_LOOKS
+from validation.paper.fig9 import COMPOUND
+from validation.sweeps.study import STUDIES, StudyRun, study_runs
+
+#: The paper's Table 4 [kN]; its plane model has 1 m of depth, so the numbers are also N per mm.
+PAPER_N_PER_MM = {
+    "van-der-waals-bars-series-1": 4.56,
+    "van-der-waals-bars-series-2": 4.10,
+    "yeoh-bars-series-1": 4.54,
+    "yeoh-bars-series-2": 4.32,
+    "yeoh-bars-series-1-load": 4.86,
+    "mooney-rivlin-dumbbells": 4.59,
+}
+_HEADING = """\
+Table 4: friction force, mean over the sliding phase, per mm of depth.
+The paper's unit is kN for a plane model 1 m deep, which is the same number in N per mm.
+"""
+
+
+def make(directory: Path) -> Path:
+    """Write table 4 as CSV and as text; the text's path is returned."""
+    table = force_table(study_runs(STUDIES / "compounds.toml", directory))
+    table.to_csv(directory / "table4.csv", index=False, lineterminator="\n")
+    path = directory / "table4.txt"
+    readable = table.to_string(index=False, float_format=lambda value: f"{value:.2f}", na_rep="-")
+    path.write_text(f"{_HEADING}\n{readable}\n", encoding="utf-8")
+    return path
+
+
+def force_table(runs: list[StudyRun]) -> pd.DataFrame:
+    """Computed and published friction force, a row per parameter set."""
+    found = {run[COMPOUND]: run.result.summary for run in runs}
+    rows = []
+    for name, paper in PAPER_N_PER_MM.items():
+        force = found.get(name, {}).get("friction_force_N_per_mm")
+        rows.append(
+            {
+                "set": COMPOUND_LOOKS[name].label,
+                "status": found.get(name, {}).get("status", "not run"),
+                "computed_N_per_mm": float("nan") if force is None else force,
+                "paper_N_per_mm": paper,
+            }
+        )
+    table = pd.DataFrame(rows)
+    table["difference_percent"] = 100.0 * (
+        table["computed_N_per_mm"] / table["paper_N_per_mm"] - 1.0
+    )
+    return table

@@ -1,0 +1,136 @@
+"""Sweeps: all cases of a study, in parallel, one row per case, resumable after any interruption."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from fem.outcome import OK
+from fem.program_version import program_version
+from validation.sweeps.study import read_study
+from validation.sweeps.sweep_case import SweepTask, finished_outcome, forget
+from validation.sweeps.sweep_table import SweepTable
+from validation.sweeps.sweep_workers import executor, number_of_workers
+
+
+@dataclass(frozen=True, kw_only=True)
+class SweepProgress:
+    """How far a sweep is.
+
+    Attributes
+    ----------
+    cases : int
+        Cases of the study.
+    done : int
+        Cases that have finished, the ones an earlier sweep had finished among them.
+    earlier : int
+        Cases that an earlier sweep had finished.
+    status : dict
+        Number of finished cases by status.
+    """
+
+    cases: int
+    done: int
+    earlier: int
+    status: dict[str, int]
+
+    @property
+    def all_ok(self) -> bool:
+        """Whether every case has finished as it should."""
+        return self.status.get(OK, 0) == self.cases
+
+
+def sweep(
+    study: str | Path,
+    directory: str | Path,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    resume: bool = False,
+    progress: Callable[[SweepProgress], None] | None = None,
+) -> SweepProgress:
+    """Run all cases of a study file.
+
+    Parameters
+    ----------
+    study : str or Path
+        Study file, see `validation.sweeps.study`.
+    directory : str or Path
+        Folder for `summary.csv`, `timings.csv` and `runs/<case>/`. Workers on other machines have
+        to see it under the same path.
+    workers : int, optional
+        Number of local processes, one thread each; by default one per core. With 1 (or without
+        dask.distributed) the cases run one after the other in this process.
+    scheduler : str, optional
+        Address of a running dask scheduler, used instead of local processes.
+    resume : bool
+        Keep cases that the same program has finished; otherwise all are run.
+    progress : callable, optional
+        Called with a `SweepProgress` when a case has finished, and some times a second.
+
+    Returns
+    -------
+    SweepProgress
+        The final counts.
+
+    Raises
+    ------
+    CaseError
+        If the study, the number of workers or the address is wrong; nothing is written then.
+    SchedulerLostError
+        If the scheduler went away; what was finished is in the table.
+    """
+    cases = read_study(study)
+    workers = number_of_workers(workers, scheduler)
+    directory = Path(directory).absolute()
+    tasks = {
+        case.name: SweepTask(
+            name=case.name,
+            case=case.case,
+            folder=str(directory / "runs" / case.name),
+            version=program_version(),
+        )
+        for case in cases
+    }
+    table = SweepTable(directory, cases)
+    waiting = _take_finished(tasks, table, resume=resume)
+    earlier = len(table.rows)
+
+    def report() -> SweepProgress:
+        state = SweepProgress(
+            cases=len(tasks),
+            done=len(table.rows),
+            earlier=earlier,
+            status=dict(Counter(row["status"] for row in table.rows.values())),
+        )
+        if progress is not None:
+            progress(state)
+        return state
+
+    with executor(workers=max(1, min(workers, len(waiting))), scheduler=scheduler) as execute:
+        for task in tasks.values():
+            forget(task, keep=task.name in table.rows)
+        table.write()
+        report()
+        for outcome in execute(waiting):
+            if outcome is not None:
+                table.add(tasks[outcome.name], outcome)
+                table.write()
+            report()
+    return report()
+
+
+def _take_finished(
+    tasks: dict[str, SweepTask], table: SweepTable, *, resume: bool
+) -> list[SweepTask]:
+    """Put cases that are done already into the table and return the others."""
+    waiting = []
+    for task in tasks.values():
+        outcome = finished_outcome(task) if resume else None
+        if outcome is None:
+            waiting.append(task)
+        else:
+            table.add(task, outcome)
+    return waiting

@@ -1,0 +1,71 @@
+"""How a sweep shows how far it is: a bar with the time left on a terminal, nothing in a pipe."""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from fem.outcome import OK
+from fem.results import SUMMARY_CSV
+from validation.sweeps.sweep import SweepProgress
+
+_BAR = "{n_fmt}/{total_fmt} cases |{bar}| {elapsed}{postfix}"
+_REDRAW_S = 1.0
+
+
+class SweepBar:
+    """Bar of finished cases; time left is judged by the cases this sweep has finished itself."""
+
+    def __init__(self) -> None:
+        self.bar: Any = None
+        self.begin = self.drawn = time.monotonic()
+
+    def __enter__(self) -> SweepBar:
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        if self.bar is not None:
+            self.bar.close()
+
+    def __call__(self, state: SweepProgress) -> None:
+        """Show the state; between finished cases once a second, so that the clock runs."""
+        if not sys.stderr.isatty():
+            return
+        if self.bar is None:
+            from tqdm import tqdm
+
+            self.bar = tqdm(total=state.cases, bar_format=_BAR, leave=False)
+        now = time.monotonic()
+        if state.done == self.bar.n and now - self.drawn < _REDRAW_S:
+            return
+        self.drawn = now
+        self.bar.n = state.done
+        self.bar.set_postfix_str(self._words(state, now - self.begin), refresh=True)
+
+    @staticmethod
+    def _words(state: SweepProgress, elapsed_s: float) -> str:
+        bad = state.done - state.status.get(OK, 0)
+        words = [time_left(state, elapsed_s)]
+        return ", ".join(words + [f"{bad} not ok"] * (bad > 0))
+
+
+def time_left(state: SweepProgress, elapsed_s: float) -> str:
+    """Words for the time the rest will take, e.g. ``12:30 left``."""
+    own = state.done - state.earlier
+    if state.done == state.cases:
+        return "done"
+    if own == 0:
+        return "time left unknown"
+    seconds = round(elapsed_s / own * (state.cases - state.done))
+    hours, minutes = seconds // 3600, seconds // 60 % 60
+    clock = f"{hours}:{minutes:02d}" if hours else f"{minutes:02d}"
+    return f"{clock}:{seconds % 60:02d} left"
+
+
+def closing_line(state: SweepProgress, directory: Path) -> str:
+    """Say in one line what came out."""
+    counts = ", ".join(f"{number} {status}" for status, number in sorted(state.status.items()))
+    earlier = f" ({state.earlier} finished earlier)" if state.earlier else ""
+    return f"{state.cases} cases: {counts}{earlier}; table in {directory / SUMMARY_CSV}"

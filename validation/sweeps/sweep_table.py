@@ -1,0 +1,90 @@
+"""The table of a sweep: a row per finished case, always in the order of the study."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from fem.atomic_files import write_text
+from fem.columns import SUMMARY
+from fem.results import SUMMARY_CSV
+from validation.sweeps.study import StudyCase
+from validation.sweeps.sweep_case import CaseOutcome, SweepTask
+
+TIMINGS_CSV = "timings.csv"
+#: Differ from run to run; they stand in a table of their own so that the results can be compared.
+_TIMES = ("wall_s", "solver_s")
+_BEFORE = ("case", "status", "reason", "advice")
+_AFTER = ("case_hash", "program_version")
+
+
+class SweepTable:
+    """Rows of `summary.csv` and `timings.csv`, rewritten as a whole whenever a case has finished.
+
+    A reader never sees half a row, and the rows are in the order of the study at any time.
+
+    Parameters
+    ----------
+    directory : Path
+        Folder of the sweep.
+    cases : sequence of StudyCase
+        All cases of the study.
+    """
+
+    def __init__(self, directory: Path, cases: Sequence[StudyCase]) -> None:
+        self.directory = directory
+        self.grid = list(dict.fromkeys(key for case in cases for key in case.overrides))
+        self.settings = {case.name: grid_values(case, self.grid) for case in cases}
+        self.rows: dict[str, dict[str, Any]] = {}
+        self.times: dict[str, dict[str, Any]] = {}
+
+    def add(self, task: SweepTask, outcome: CaseOutcome) -> None:
+        """Take the outcome of a case."""
+        summary = outcome.summary
+        self.rows[task.name] = {
+            **self.settings[task.name],
+            "case": task.name,
+            **{key: value for key, value in summary.items() if key not in _TIMES},
+            "case_hash": task.case.hash(),
+            "program_version": task.version,
+        }
+        solver_s = summary.get("solver_s", "")
+        self.times[task.name] = {"case": task.name, **outcome.timing, "solver_s": solver_s}
+
+    def write(self) -> None:
+        """Write both tables with the cases that have finished so far."""
+        found = dict.fromkeys(key for row in self.rows.values() for key in row)
+        results = [key for key in SUMMARY if key not in _TIMES]
+        first = dict.fromkeys([*self.grid, *_BEFORE, *results])
+        others = [key for key in found if key not in first and key not in _AFTER]
+        columns = [*first, *others, *_AFTER]
+        self._write(SUMMARY_CSV, columns, self.rows)
+        self._write(TIMINGS_CSV, ["case", "wall_s", "cpu_s", "solver_s"], self.times)
+
+    def _write(self, name: str, columns: list[str], rows: Mapping[str, Mapping[str, Any]]) -> None:
+        text = io.StringIO()
+        writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows[case] for case in self.settings if case in rows)
+        write_text(self.directory / name, text.getvalue())
+
+
+def grid_values(case: StudyCase, grid: Sequence[str]) -> dict[str, Any]:
+    """Values of the dotted keys in a case; those that it has no use for are empty."""
+    resolved = case.case.to_dict()
+    return {key: _plain(case.overrides.get(key, _resolved(resolved, key))) for key in grid}
+
+
+def _resolved(tables: Mapping[str, Any], dotted: str) -> Any:
+    value: Any = tables
+    for part in dotted.split("."):
+        value = value.get(part) if isinstance(value, Mapping) else None
+    return value
+
+
+def _plain(value: Any) -> Any:
+    return json.dumps(value) if isinstance(value, (dict, list)) else value
