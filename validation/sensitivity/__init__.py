@@ -1,0 +1,1 @@
+"""What the paper leaves open and what it should not depend on: one parameter at a time."""

@@ -1,0 +1,94 @@
+"""The sensitivity study in words and numbers, for a terminal or a mail."""
+
+from __future__ import annotations
+
+import textwrap
+
+import pandas as pd
+
+from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS
+from validation.sensitivity.tornado import by_influence, signed
+
+_HEADINGS = {
+    PHYSICS: "What the paper leaves open",
+    NUMERICS: "Numerics, on which the results should not depend",
+}
+_COLUMNS = {
+    "T_max_difference_K": "T_max [K]",
+    "A_T_difference_percent": "A_T [%]",
+    "friction_force_difference_percent": "F_T [%]",
+    "contact_pressure_difference_percent": "pressure [%]",
+}
+_WIDTH = 100
+
+
+def sensitivity_text(table: pd.DataFrame) -> str:
+    """Base values, the changes of each group with the strongest first, and why these ranges."""
+    base, rows = table.iloc[0], by_influence(table)
+    parts = [_base_words(base), _strongest(rows)]
+    for group, heading in _HEADINGS.items():
+        parts.append(f"{heading}\n\n{_changes(rows[rows['group'] == group])}")
+    parts += [_stopped(table), _reasons(rows)]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _base_words(base: pd.Series) -> str:
+    if base["status"] != "ok":
+        return f"The base did not get to its end ({base['reason']}): nothing can be compared."
+    return _wrapped(
+        "Sensitivity of the introductory example, one parameter at a time. Base: "
+        f"T_max {base['T_max_C']:.2f} °C, A_T {base['A_T_K_mm']:.1f} K mm, friction force F_T "
+        f"{base['friction_force_N_per_mm']:.3f} N/mm, mean contact pressure "
+        f"{base['mean_contact_pressure_N_per_mm2']:.3f} N/mm²."
+    )
+
+
+def _strongest(rows: pd.DataFrame) -> str:
+    lines = []
+    for group, words in ((PHYSICS, "Of what the paper leaves open"), (NUMERICS, "Of the numerics")):
+        size = rows["T_max_difference_K"].abs().where(rows["group"] == group)
+        if size.notna().any():
+            row = rows.iloc[int(size.argmax())]
+            lines.append(
+                f"{words}, {_change(row)} moves T_max most: {signed(row['T_max_difference_K'])} K."
+            )
+    return _wrapped(" ".join(lines))
+
+
+def _changes(rows: pd.DataFrame) -> str:
+    shown = pd.DataFrame({"change": rows.apply(_change, axis=1)})
+    for column, title in _COLUMNS.items():
+        shown[title] = rows[column].map(lambda value: "-" if pd.isna(value) else signed(value))
+    width = max(map(len, shown["change"]), default=0)
+    shown["change"] = shown["change"].str.ljust(width)
+    return shown.to_string(index=False)
+
+
+def _change(row: pd.Series) -> str:
+    unit = PARAMETERS[_key(row)].unit
+    return f"{row['label']}: {row['from']} to {row['to']} {unit}".strip()
+
+
+def _stopped(table: pd.DataFrame) -> str:
+    rows = table[table["status"] != "ok"]
+    lines = [
+        _wrapped(
+            f"- {_change(row)}: {row['status']} at {row['reached_mm']:.3g} mm; {row['reason']}"
+        )
+        for _, row in rows[rows["parameter"].map(lambda key: key != "base")].iterrows()
+    ]
+    return "Did not get to their end\n\n" + "\n".join(lines) if lines else ""
+
+
+def _reasons(rows: pd.DataFrame) -> str:
+    keys = dict.fromkeys(_key(row) for _, row in rows.iterrows())
+    lines = [_wrapped(f"- {PARAMETERS[key].label} ({key}): {PARAMETERS[key].why}") for key in keys]
+    return "Why these ranges\n\n" + "\n".join(lines)
+
+
+def _key(row: pd.Series) -> str:
+    return str(row["parameter"]).split(" and ")[0]
+
+
+def _wrapped(text: str) -> str:
+    return textwrap.fill(text, _WIDTH, subsequent_indent="  " if text.startswith("- ") else "")

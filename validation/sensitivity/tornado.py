@@ -1,0 +1,173 @@
+"""The tornado plot: what moves T_max, A_T and the friction force, the strongest first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from validation.drawing.style import BLUE, GREY, PAGE_WIDTH, VERMILLION, new_figure, styled
+from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS
+
+PANELS = {
+    "T_max_difference_K": "change of $T_{max}$ [K]",
+    "A_T_difference_percent": "change of $A_T$ [%]",
+    "friction_force_difference_percent": "change of $F_T$ [%]",
+}
+HEADINGS = {
+    PHYSICS: "Left open by the paper",
+    NUMERICS: "Numerics: should not matter",
+}
+COLOURS = {PHYSICS: BLUE, NUMERICS: VERMILLION}
+#: To what the paper's temperatures were measured at best [K].
+MEASURED_TO_K = 1.0
+_ROW_MM, _AROUND_MM = 4.6, 24.0
+_BAR = 0.68
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line of the picture: a heading (`row` is None) or a bar with the words before it.
+
+    `first` is true for the first of the values of a parameter.
+    """
+
+    text: str
+    group: str
+    row: pd.Series | None = None
+    first: bool = False
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw a bar per case in three panels that share their lines.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From `validation.sensitivity.table.sensitivity_table`.
+    """
+    lines = _lines(by_influence(table))
+    figure = new_figure(PAGE_WIDTH, _AROUND_MM + _ROW_MM * len(lines))
+    panels = figure.subplots(1, len(PANELS), sharey=True)
+    for axes, (column, title) in zip(panels, PANELS.items(), strict=True):
+        _draw_panel(axes, lines, column)
+        axes.set_xlabel(title)
+    panels[0].axvspan(-MEASURED_TO_K, MEASURED_TO_K, color="#EEEEEE", lw=0, zorder=0)
+    _label_lines(panels[0], lines)
+    base = table.iloc[0]
+    figure.suptitle(_heading(base), fontsize=8.5, fontweight="bold", x=0.01, ha="left")
+    note = f"grey band: ±{MEASURED_TO_K:g} K, to which the paper's temperatures were measured"
+    figure.supxlabel(note, fontsize=7.0, color=GREY, x=0.99, ha="right")
+    return figure
+
+
+def by_influence(table: pd.DataFrame) -> pd.DataFrame:
+    """Rows without the base: physics before numerics, what moves T_max most first.
+
+    The values of a parameter stay together; those that cannot be compared come last.
+    """
+    rows = table[table["group"].isin(HEADINGS)]
+    size = rows["T_max_difference_K"].abs().groupby(rows["parameter"]).transform("max")
+    keys = rows.assign(
+        _group=rows["group"].map(list(HEADINGS).index), _size=-size, _order=np.arange(len(rows))
+    )
+    first = keys.groupby("parameter")["_order"].transform("min")
+    keys = keys.assign(_first=first).sort_values(["_group", "_size", "_first", "_order"])
+    return rows.loc[keys.index]
+
+
+def _lines(rows: pd.DataFrame) -> list[_Line]:
+    lines: list[_Line] = []
+    before = ""
+    for _, row in rows.iterrows():
+        if not any(line.group == row["group"] for line in lines):
+            lines.append(_Line(HEADINGS[row["group"]], row["group"]))
+        first = row["parameter"] != before
+        lines.append(_Line(_words(row, first=first), row["group"], row, first))
+        before = row["parameter"]
+    return lines
+
+
+def _words(row: pd.Series, *, first: bool) -> str:
+    unit = PARAMETERS[str(row["parameter"]).split(" and ")[0]].unit
+    to = f"{row['to']} {unit}".strip()
+    return f"{row['label']}: {row['from']} → {to}" if first else f"→ {to}"
+
+
+def _draw_panel(axes: Axes, lines: list[_Line], column: str) -> None:
+    values = [0.0 if line.row is None else float(line.row[column]) for line in lines]
+    known = [0.0, *(value for value in values if not np.isnan(value))]
+    room = 0.42 * max(max(known) - min(known), 1e-6)
+    axes.set_xlim(min(known) - room, max(known) + room)
+    for place, (line, value) in enumerate(zip(lines, values, strict=True)):
+        if line.first:
+            axes.axhline(place - 0.5, color="#DDDDDD", lw=0.5, zorder=0.5)
+        if line.row is not None and np.isnan(value):
+            _say_where_it_stopped(axes, place, float(line.row["reached_mm"]))
+        elif line.row is not None:
+            _draw_bar(axes, place, value, COLOURS[line.group])
+    axes.axvline(0.0, color="black", lw=0.6)
+    axes.set_ylim(len(lines) - 0.4, -0.6)
+    axes.tick_params(axis="y", length=0, pad=6.0)
+    axes.spines["left"].set_visible(False)
+    axes.grid(True, axis="x")
+    axes.set_axisbelow(True)
+
+
+def _draw_bar(axes: Axes, place: int, value: float, colour: str) -> None:
+    """Draw a bar with its value outside its end."""
+    axes.barh(place, value, height=_BAR, color=colour, lw=0)
+    left = value < 0.0
+    axes.annotate(
+        signed(value),
+        (value, place),
+        xytext=(-2.0 if left else 2.0, 0.0),
+        textcoords="offset points",
+        ha="right" if left else "left",
+        va="center",
+        fontsize=6.5,
+    )
+
+
+def _say_where_it_stopped(axes: Axes, place: int, reached_mm: float) -> None:
+    words = f"stopped at {reached_mm:.3g} mm"
+    axes.text(
+        0.5,
+        place,
+        words,
+        transform=axes.get_yaxis_transform(),
+        color=GREY,
+        fontsize=6.0,
+        ha="center",
+        va="center",
+        bbox={"fc": "white", "ec": "none", "pad": 0.8},
+    )
+
+
+def _label_lines(axes: Axes, lines: list[_Line]) -> None:
+    axes.set_yticks(range(len(lines)), [line.text for line in lines], fontsize=7.0)
+    for label, line in zip(axes.get_yticklabels(), lines, strict=True):
+        if line.row is None:
+            label.set_fontweight("bold")
+            label.set_color(COLOURS[line.group])
+
+
+def _heading(base: pd.Series) -> str:
+    if base["status"] != "ok":
+        return f"the base did not get to its end (stopped at {base['reached_mm']:.3g} mm)"
+    return (
+        f"One at a time, from $T_{{max}}$ = {base['T_max_C']:.1f} °C, "
+        f"$A_T$ = {base['A_T_K_mm']:.0f} K mm, "
+        f"$F_T$ = {base['friction_force_N_per_mm']:.2f} N/mm"
+    )
+
+
+def signed(value: float) -> str:
+    """Show a change with its sign and a true minus: two digits after the point below ten."""
+    if abs(value) < 0.005:
+        return "0.00"
+    return f"{value:+.{2 if abs(value) < 9.995 else 1}f}".replace("-", "−")

@@ -1,0 +1,28 @@
+"""Runs the sensitivity study, or reads its runs, and writes table, picture and text."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from fem.atomic_files import write_text
+from validation.drawing.style import save
+from validation.sensitivity.table import sensitivity_table
+from validation.sensitivity.text import sensitivity_text
+from validation.sensitivity.tornado import draw
+from validation.sweeps.study import STUDIES, study_runs
+
+STUDY = STUDIES / "sensitivity.toml"
+
+
+def write_sensitivity(directory: Path) -> Path:
+    """Write ``sensitivity.csv``, ``.png`` and ``.txt``; the text's path is returned.
+
+    Runs that are missing in ``directory/runs`` are simulated there first.
+    """
+    directory = Path(directory)
+    table = sensitivity_table(study_runs(STUDY, directory))
+    write_text(directory / "sensitivity.csv", table.to_csv(index=False, lineterminator="\n"))
+    save(draw(table), directory / "sensitivity.png")
+    path = directory / "sensitivity.txt"
+    write_text(path, sensitivity_text(table))
+    return path
