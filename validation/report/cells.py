@@ -1,0 +1,79 @@
+"""CSV files as tables of short cells: numbers to five digits, words as they are."""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+_DECIMAL = re.compile(r"[+-]?(\d+\.\d*|\.\d+|\d+(?=[eE]))([eE][+-]?\d+)?")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellTable:
+    """A table ready to be shown.
+
+    Attributes
+    ----------
+    name : str
+        Of the file it came from.
+    columns : tuple of str
+        Column names as in the file, units included.
+    rows : tuple of tuple of str
+        One text per column.
+    """
+
+    name: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+    def column(self, name: str) -> list[str]:
+        """Cells of a column; none if the table has no such column."""
+        if name not in self.columns:
+            return []
+        place = self.columns.index(name)
+        return [row[place] for row in self.rows]
+
+    @property
+    def records(self) -> list[dict[str, str]]:
+        """Rows as dictionaries of column to cell."""
+        return [dict(zip(self.columns, row, strict=True)) for row in self.rows]
+
+    def without(self, *names: str) -> CellTable:
+        """Leave out columns."""
+        kept = [i for i, name in enumerate(self.columns) if name not in names]
+        return CellTable(
+            name=self.name,
+            columns=tuple(self.columns[i] for i in kept),
+            rows=tuple(tuple(row[i] for i in kept) for row in self.rows),
+        )
+
+
+def read_cells(path: Path) -> CellTable:
+    """Read a CSV file with a header line; short rows are filled up, long ones cut."""
+    with path.open(encoding="utf-8", newline="") as file:
+        lines = [line for line in csv.reader(file) if line]
+    columns = tuple(lines[0]) if lines else ()
+    width = len(columns)
+    rows = tuple(
+        tuple(short(cell) for cell in [*line, *[""] * width][:width]) for line in lines[1:]
+    )
+    return CellTable(name=path.name, columns=columns, rows=rows)
+
+
+def short(cell: str) -> str:
+    """Round a decimal number to five digits; whole numbers and words stay."""
+    if not _DECIMAL.fullmatch(cell):
+        return cell
+    value = float(cell)
+    return f"{value:.0f}" if 1e5 <= abs(value) < 1e7 else f"{value:.5g}"
+
+
+def is_number(cell: str) -> bool:
+    """Whether a cell is set like a number: flush right."""
+    try:
+        float(cell.replace("−", "-"))
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,86 @@
+"""The introductory example in the report: its results, its picture, and who computed it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fem.case import Case
+from fem.case_errors import CaseError
+from fem.results import CASE_FILE, read_summary
+from validation.paper.introductory import introductory_case
+
+#: Results that are shown: key of the summary to its name, unit and format.
+SHOWN = {
+    "T_max_C": ("highest temperature T_max", "°C", ".2f"),
+    "A_T_K_mm": ("area A_T under the temperature curve", "K mm", ".1f"),
+    "friction_force_N_per_mm": ("friction force per depth", "N/mm", ".3f"),
+    "friction_coefficient": ("friction coefficient", "", ".3f"),
+    "contact_length_mm": ("contact length", "mm", ".2f"),
+    "mean_contact_pressure_N_per_mm2": ("mean contact pressure", "N/mm²", ".3f"),
+    "T_edge_C": ("temperature peak at the front edge", "°C", ".2f"),
+    "energy_error": ("energy error", "", ".2%"),
+    "heat_error": ("heat error", "", ".1e"),
+    "regularisation_share": ("share of the regularisation in the work", "", ".2%"),
+    "capped_heat_share": ("share of the heat where eq. (14) is capped", "", ".1%"),
+    "elements": ("elements", "", "d"),
+    "steps": ("steps", "", "d"),
+    "wall_s": ("computing time", "s", ".1f"),
+}
+#: How many of them stand at the top of the page.
+HEADLINES = 6
+
+
+@dataclass(frozen=True, kw_only=True)
+class IntroductoryRun:
+    """Results of the introductory example.
+
+    Attributes
+    ----------
+    results : tuple of (name, value, unit)
+    status : str
+        With the reason if it is not "ok".
+    program : str
+        Program that computed it; "unknown" if the run does not say.
+    """
+
+    results: tuple[tuple[str, str, str], ...]
+    status: str
+    program: str
+
+    @property
+    def headlines(self) -> tuple[tuple[str, str, str], ...]:
+        """The results an engineer asks for first."""
+        return self.results[:HEADLINES]
+
+
+def find_introductory(directory: Path) -> IntroductoryRun | None:
+    """Look for the run beside a folder of figures (`make run`) and inside it."""
+    case = introductory_case()
+    for folder in (directory.parent / "run", directory / "runs" / "introductory"):
+        summary = _summary_of(folder, case)
+        if summary is not None:
+            return IntroductoryRun(
+                results=tuple(_result(summary, key) for key in SHOWN),
+                status=": ".join(filter(None, [summary["status"], summary.get("reason")])),
+                program=str(summary.get("program_version", "unknown")),
+            )
+    return None
+
+
+def _summary_of(folder: Path, case: Case) -> dict[str, Any] | None:
+    """Read the summary of a run; None if there is none or it is of another case."""
+    try:
+        found = Case.from_toml(folder / CASE_FILE)
+        summary = read_summary(folder)
+    except (CaseError, ValueError):
+        return None
+    output = {f"output.{key}": value for key, value in case.to_dict()["output"].items()}
+    return summary if found.with_overrides(output) == case else None
+
+
+def _result(summary: dict[str, Any], key: str) -> tuple[str, str, str]:
+    name, unit, form = SHOWN[key]
+    value = summary.get(key)
+    return name, "-" if value is None else format(value, form), unit

@@ -1,0 +1,93 @@
+"""Which program made the report: versions, commit, date."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+from dataclasses import dataclass
+from datetime import datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from fem.program_version import program_version
+
+#: Packages whose version decides numbers or pictures.
+PACKAGES = (
+    "numpy",
+    "scipy",
+    "scikit-fem",
+    "pypardiso",
+    "pandas",
+    "matplotlib",
+    "meshio",
+    "pydantic",
+    "jinja2",
+)
+ROOT = Path(__file__).parents[2]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MadeWith:
+    """What made a report.
+
+    Attributes
+    ----------
+    date : str
+        Local date and time with the offset from UTC.
+    program : str
+        Version of treadfem and fingerprint of what computes.
+    commit : str
+        Commit and whether there are changes beside it, or that there is none.
+    versions : dict
+        Python and packages to their versions.
+    """
+
+    date: str
+    program: str
+    commit: str
+    versions: dict[str, str]
+
+
+def made_with() -> MadeWith:
+    """Find out what makes this report."""
+    return MadeWith(
+        date=datetime.now().astimezone().strftime("%Y-%m-%d %H:%M UTC%z"),
+        program=program_version(),
+        commit=describe_commit(ROOT),
+        versions={"Python": platform.python_version(), **{p: _version(p) for p in PACKAGES}},
+    )
+
+
+def describe_commit(root: Path) -> str:
+    """Commit of a source tree and whether the tree is clean; a tree without git is said to be one.
+
+    A tree that lies inside another repository (an installed package, say) has no commit of its own.
+    """
+    top = _git(root, "rev-parse", "--show-toplevel")
+    commit = _git(root, "rev-parse", "HEAD")
+    if top is None or commit is None or Path(top).resolve() != root.resolve():
+        return "not from a git repository"
+    changes = _git(root, "status", "--porcelain")
+    if changes is None:
+        return f"{commit} (git could not say whether there are changes)"
+    if not changes:
+        return f"{commit}, clean tree"
+    files = len(changes.splitlines())
+    return f"{commit} with {files} uncommitted file{'s' if files > 1 else ''}"
+
+
+def _git(root: Path, *arguments: str) -> str | None:
+    """What git answers; None without git, without a repository or without a commit."""
+    command = ["git", "-C", str(root), *arguments]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=True)
+    except (OSError, subprocess.SubprocessError):
+        return None
+    return done.stdout.strip()
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "not installed"

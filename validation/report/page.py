@@ -1,0 +1,99 @@
+"""Everything the page shows, and the page as HTML."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from validation.report.captions import NOT_COMPUTED
+from validation.report.cells import is_number
+from validation.report.introductory_part import IntroductoryRun, find_introductory
+from validation.report.made_with import MadeWith
+from validation.report.parts import (
+    Part,
+    claims_part,
+    figure_parts,
+    robustness_part,
+    sensitivity_part,
+    table_parts,
+)
+from validation.sweeps.study import STUDIES
+
+TEMPLATE = "report.html"
+#: The robustness study's table, which is kept with the sources.
+ROBUSTNESS = STUDIES.parent / "robustness.csv"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Page:
+    """What stands on the page, top to bottom."""
+
+    run: IntroductoryRun | None
+    claims: Part
+    figures: list[Part]
+    tables: list[Part]
+    sensitivity: Part
+    robustness: Part
+    made_with: MadeWith
+    not_computed: str = NOT_COMPUTED
+
+    @property
+    def missing(self) -> list[tuple[str, str]]:
+        """Titles and commands of the parts that are not there."""
+        parts = [self.claims, *self.figures, *self.tables, self.sensitivity, self.robustness]
+        absent = [(part.title, part.command) for part in parts if part.missing]
+        return ([] if self.run else [("Introductory example", "make run")]) + absent
+
+    @property
+    def verdicts(self) -> list[tuple[str, int]]:
+        """How many of the paper's claims got which verdict, the most frequent first."""
+        return Counter(v for t in self.claims.tables for v in t.column("verdict")).most_common()
+
+    @property
+    def outcomes(self) -> list[tuple[str, int]]:
+        """How many cases of the robustness study ended how, the most frequent first."""
+        return Counter(s for t in self.robustness.tables for s in t.column("status")).most_common()
+
+
+def find_page(directory: Path, made_with: MadeWith) -> Page:
+    """Collect what lies in a folder of figures."""
+    return Page(
+        run=find_introductory(directory),
+        claims=claims_part(directory),
+        figures=figure_parts(directory),
+        tables=table_parts(directory),
+        sensitivity=sensitivity_part(directory),
+        robustness=robustness_part(ROBUSTNESS),
+        made_with=made_with,
+    )
+
+
+def render(page: Page) -> str:
+    """Turn the page into one HTML text that needs no other file, script or network."""
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.tests["number"] = is_number
+    environment.filters["tone"] = tone
+    return environment.get_template(TEMPLATE).render(page=page)
+
+
+#: Words of a verdict or status to the colour it is shown in.
+TONES = {
+    "good": ("ok", "holds"),
+    "bad": ("differs", "not converged", "failed"),
+}
+
+
+def tone(word: str) -> str:
+    """Colour of a verdict or a status: "good", "bad", or "open" for what is neither."""
+    known = [name for name, words in TONES.items() if word.strip().lower() in words]
+    return known[0] if known else "open"
