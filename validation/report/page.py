@@ -20,6 +20,7 @@ from validation.report.parts import (
     sensitivity_part,
     table_parts,
 )
+from validation.sensitivity.parameters import PARAMETERS, Parameter, first_key
 from validation.sweeps.study import STUDIES
 
 TEMPLATE = "report.html"
@@ -56,6 +57,13 @@ class Page:
     def outcomes(self) -> list[tuple[str, int]]:
         """How many cases of the robustness study ended how, the most frequent first."""
         return Counter(s for t in self.robustness.tables for s in t.column("status")).most_common()
+
+    @property
+    def reasons(self) -> list[Parameter]:
+        """What the sensitivity study varies, in the order of its table."""
+        keys = [key for table in self.sensitivity.tables for key in table.column("parameter")]
+        first = dict.fromkeys(first_key(key) for key in keys)
+        return [PARAMETERS[key] for key in first if key in PARAMETERS]
 
 
 def find_page(directory: Path, made_with: MadeWith) -> Page:

@@ -95,6 +95,7 @@ def sensitivity_part(directory: Path) -> Part:
         command="make sensitivity",
         picture=_picture(directory / "sensitivity.png"),
         tables=_tables([directory / "sensitivity.csv"]),
+        note=first_paragraph(directory / "sensitivity.txt"),
     )
 
 

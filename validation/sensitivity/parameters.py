@@ -128,3 +128,11 @@ PARAMETERS = {
         why="a tenth and five times; the laws vanish at rest and this is where sticking ends",
     ),
 }
+
+#: Between the keys of a case that changes more than one.
+AND = " and "
+
+
+def first_key(parameter: str) -> str:
+    """Key of `PARAMETERS` for a cell of the table's column ``parameter``."""
+    return parameter.split(AND)[0]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from validation.sensitivity.parameters import PARAMETERS
+from validation.sensitivity.parameters import AND, PARAMETERS
 from validation.sweeps.study import StudyRun
 
 RESULTS = (
@@ -67,7 +67,7 @@ def _row(run: StudyRun, base: StudyRun) -> dict[str, Any]:
     parameter = PARAMETERS[keys[0]] if keys else None
     summary, history = run.result.summary, run.result.history
     return {
-        "parameter": " and ".join(keys) or BASE,
+        "parameter": AND.join(keys) or BASE,
         "label": parameter.label if parameter else "introductory example",
         "group": parameter.group if parameter else BASE,
         "from": _values(base, keys),

@@ -6,7 +6,7 @@ import textwrap
 
 import pandas as pd
 
-from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS
+from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS, first_key
 from validation.sensitivity.tornado import by_influence, signed
 
 _HEADINGS = {
@@ -25,7 +25,7 @@ _WIDTH = 100
 def sensitivity_text(table: pd.DataFrame) -> str:
     """Base values, the changes of each group with the strongest first, and why these ranges."""
     base, rows = table.iloc[0], by_influence(table)
-    parts = [_base_words(base), _strongest(rows)]
+    parts = [_wrapped(f"{_base_words(base)} {_strongest(rows)}")]
     for group, heading in _HEADINGS.items():
         parts.append(f"{heading}\n\n{_changes(rows[rows['group'] == group])}")
     parts += [_stopped(table), _reasons(rows)]
@@ -35,7 +35,7 @@ def sensitivity_text(table: pd.DataFrame) -> str:
 def _base_words(base: pd.Series) -> str:
     if base["status"] != "ok":
         return f"The base did not get to its end ({base['reason']}): nothing can be compared."
-    return _wrapped(
+    return (
         "Sensitivity of the introductory example, one parameter at a time. Base: "
         f"T_max {base['T_max_C']:.2f} °C, A_T {base['A_T_K_mm']:.1f} K mm, friction force F_T "
         f"{base['friction_force_N_per_mm']:.3f} N/mm, mean contact pressure "
@@ -52,7 +52,7 @@ def _strongest(rows: pd.DataFrame) -> str:
             lines.append(
                 f"{words}, {_change(row)} moves T_max most: {signed(row['T_max_difference_K'])} K."
             )
-    return _wrapped(" ".join(lines))
+    return " ".join(lines)
 
 
 def _changes(rows: pd.DataFrame) -> str:
@@ -65,7 +65,7 @@ def _changes(rows: pd.DataFrame) -> str:
 
 
 def _change(row: pd.Series) -> str:
-    unit = PARAMETERS[_key(row)].unit
+    unit = PARAMETERS[first_key(row["parameter"])].unit
     return f"{row['label']}: {row['from']} to {row['to']} {unit}".strip()
 
 
@@ -81,13 +81,9 @@ def _stopped(table: pd.DataFrame) -> str:
 
 
 def _reasons(rows: pd.DataFrame) -> str:
-    keys = dict.fromkeys(_key(row) for _, row in rows.iterrows())
+    keys = dict.fromkeys(map(first_key, rows["parameter"]))
     lines = [_wrapped(f"- {PARAMETERS[key].label} ({key}): {PARAMETERS[key].why}") for key in keys]
     return "Why these ranges\n\n" + "\n".join(lines)
-
-
-def _key(row: pd.Series) -> str:
-    return str(row["parameter"]).split(" and ")[0]
 
 
 def _wrapped(text: str) -> str:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.drawing.style import BLUE, GREY, PAGE_WIDTH, VERMILLION, new_figure, styled
-from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS
+from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS, first_key
 
 PANELS = {
     "T_max_difference_K": "change of $T_{max}$ [K]",
@@ -93,7 +93,7 @@ def _lines(rows: pd.DataFrame) -> list[_Line]:
 
 
 def _words(row: pd.Series, *, first: bool) -> str:
-    unit = PARAMETERS[str(row["parameter"]).split(" and ")[0]].unit
+    unit = PARAMETERS[first_key(row["parameter"])].unit
     to = f"{row['to']} {unit}".strip()
     return f"{row['label']}: {row['from']} → {to}" if first else f"→ {to}"
 

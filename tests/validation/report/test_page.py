@@ -16,6 +16,7 @@ from validation.report import captions, page, write
 from validation.report.made_with import MadeWith
 from validation.report.page import find_page, render, tone
 from validation.report.write import write_report
+from validation.sensitivity.parameters import PARAMETERS
 
 PNG = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNkYAAAAAYAAjCB0C8AAAAASUVORK5CYII="
@@ -75,7 +76,8 @@ def folder(tmp_path, monkeypatch):
         (figures / f"table{number}.txt").write_text("SYNTHETIC, as\nsaid.\n\nset paper\n")
     (figures / "claims.csv").write_text(CLAIMS)
     (figures / "sensitivity.png").write_bytes(PNG)
-    (figures / "sensitivity.csv").write_text("parameter,label,status\nbase,base,ok\n")
+    (figures / "sensitivity.csv").write_text("parameter,status\nbase,ok\nblock.mesh,ok\n")
+    (figures / "sensitivity.txt").write_text("The base\nis here.\n\nA table.\n")
     result = made_up_result()
     result.summary["program_version"] = MADE_WITH.program
     result.write(tmp_path / "run")
@@ -175,6 +177,14 @@ def test_verdicts_have_a_colour_by_what_they_say():
 
 def test_cases_of_the_robustness_study_are_counted_by_their_status(folder):
     assert "ok: 2 not converged: 1" in seen(html_of(folder))
+
+
+def test_the_sensitivity_study_is_summed_up_and_its_ranges_are_explained(folder):
+    text = seen(html_of(folder))
+    assert "The base is here." in text
+    assert "A table." not in text
+    assert PARAMETERS["block.mesh"].why in text
+    assert PARAMETERS["block.height_mm"].why not in text
 
 
 def test_versions_commit_and_date_are_on_the_page(folder):
