@@ -20,6 +20,7 @@ from validation.report.parts import (
     sensitivity_part,
     table_parts,
 )
+from validation.report.runs_found import programs_of_runs
 from validation.sensitivity.parameters import PARAMETERS, Parameter, first_key
 from validation.sweeps.study import STUDIES
 
@@ -39,6 +40,7 @@ class Page:
     sensitivity: Part
     robustness: Part
     made_with: MadeWith
+    programs: list[tuple[str, int]]
     not_computed: str = NOT_COMPUTED
 
     @property
@@ -76,6 +78,7 @@ def find_page(directory: Path, made_with: MadeWith) -> Page:
         sensitivity=sensitivity_part(directory),
         robustness=robustness_part(ROBUSTNESS),
         made_with=made_with,
+        programs=programs_of_runs(directory),
     )
 
 

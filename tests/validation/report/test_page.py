@@ -15,6 +15,7 @@ from validation.paper.tables import TABLES
 from validation.report import captions, page, write
 from validation.report.made_with import MadeWith
 from validation.report.page import find_page, render, tone
+from validation.report.runs_found import programs_of_runs
 from validation.report.write import write_report
 from validation.sensitivity.parameters import PARAMETERS
 
@@ -211,6 +212,17 @@ def test_a_run_of_another_program_or_one_that_stopped_early_is_marked(folder):
 def test_a_run_of_another_case_is_not_shown_as_the_introductory_one(folder):
     made_up_result(velocity_mm_per_s=50.0).write(folder.parent / "run")
     assert find_page(folder, MADE_WITH).run is None
+
+
+def test_runs_are_counted_by_the_program_that_computed_them(folder):
+    for number, program in enumerate(["0.1.0+b", "0.1.0+a", "0.1.0+b"]):
+        result = made_up_result()
+        result.summary["program_version"] = program
+        result.write(folder / "runs" / str(number))
+    (folder / "runs" / "damaged").mkdir()
+    (folder / "runs" / "damaged" / "summary.json").write_text("{")
+    assert programs_of_runs(folder) == [("0.1.0+b", 2), ("0.1.0+a", 1), ("unreadable", 1)]
+    assert "computed by 0.1.0+b: 2, 0.1.0+a: 1, unreadable: 1" in seen(html_of(folder))
 
 
 def test_every_figure_and_table_of_the_paper_has_its_place():
