@@ -1,0 +1,57 @@
+"""Changes of one thing at a time that show why a claim and our result differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from fem.results import Result
+from validation.claims.evidence import Evidence
+
+Changes = Mapping[str, Mapping[str, Any]]
+
+#: Changes of the introductory example by how a reader calls them, to the case keys.
+LOWER_BLOCK: Changes = {"a block 5 mm high": {"block.height_mm": 5.0}}
+FREE_TOP: Changes = {"a free top under uniform pressure": {"loading.top": "pressure"}}
+NOMINAL_CONTACT: Changes = {
+    "the heat partition of the nominal 0.3 N/mm² everywhere": {
+        "heat.partition.law": "constant",
+        "heat.partition.prefactor": 0.7162,
+    },
+    "the gap conductance of 0.3 N/mm² everywhere": {"heat.exponent": 0.0},
+    "both at 0.3 N/mm² everywhere": {
+        "heat.partition.law": "constant",
+        "heat.partition.prefactor": 0.7162,
+        "heat.exponent": 0.0,
+    },
+}
+#: No stiffening, and as stiff at first as "Yeoh, bars, series 1, load".
+NEO_HOOKE = {"rubber.model": "neo-hooke", "rubber.G_N_per_mm2": 0.7588}
+
+
+def tried(
+    evidence: Evidence,
+    changes: Changes,
+    quantity: Callable[[Result], float],
+    meets: Callable[[Result], bool],
+    unit: str,
+) -> str:
+    """What came out with each change of the introductory example, and whether it is enough.
+
+    Parameters
+    ----------
+    evidence : Evidence
+        Has the runs.
+    changes : mapping
+        Words for the change to the case keys.
+    quantity, meets : callable
+        The number shown, and whether the run meets the claim's criterion.
+    unit : str
+        Of the number.
+    """
+    parts = []
+    for words, overrides in changes.items():
+        result = evidence.changed(overrides)
+        verdict = "meets the criterion" if meets(result) else "does not meet it"
+        parts.append(f"{words}: {quantity(result):.3g} {unit}, {verdict}")
+    return "With " + "; ".join(parts) + "."

@@ -1,0 +1,97 @@
+"""Quantities of a run's last state that say how the block is deformed and stressed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from fem.results import Result
+from fem.snapshot import FloatArray
+from fem.surface_profile import EDGE_ZONE
+from validation.drawing.field_panels import BlockState
+from validation.drawing.state_panels import last_state
+from validation.paper.fig9 import contour
+
+#: Height above the road up to which a point of the surface counts as touching it [mm].
+TOUCHING_MM = 1e-3
+
+
+def deformation(result: Result) -> float:
+    """Mean displacement of the free contour (rear, bottom, front), by undeformed length [mm]."""
+    state = last_state(result)
+    nothing = replace(state.snapshot, displacement=0.0 * state.snapshot.displacement)
+    before, after = contour(replace(state, snapshot=nothing)), contour(state)
+    along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(before, axis=0), axis=1)))
+    moved = np.linalg.norm(after - before, axis=1)
+    return float(np.trapezoid(moved, along) / along[-1])
+
+
+def amount_of_shear(result: Result) -> float:
+    """Mean horizontal displacement of the bottom against the platen over the height [-]."""
+    state = last_state(result)
+    X, Y = state.geometry.points.T
+    bottom = np.flatnonzero(np.isclose(Y, Y.min()))
+    bottom = bottom[np.argsort(X[bottom])]
+    u_x = np.abs(state.snapshot.displacement[bottom, 0])
+    return float(np.trapezoid(u_x, X[bottom]) / np.ptp(X) / np.ptp(Y))
+
+
+def front_face(state: BlockState) -> FloatArray:
+    """Current points of the leading face above the corner, from the bottom, (n, 2) [mm]."""
+    return np.asarray(state.points[front_face_nodes(state)])
+
+
+def front_face_nodes(state: BlockState) -> np.ndarray:
+    """Nodes of the leading face above the corner, from the bottom."""
+    X, Y = state.geometry.points.T
+    leading = X.max() if state.direction > 0 else X.min()
+    nodes = np.flatnonzero(np.isclose(X, leading) & ~np.isclose(Y, Y.min()))
+    return np.asarray(nodes[np.argsort(Y[nodes])])
+
+
+def rolled_length(result: Result) -> float:
+    """Length of the leading face, undeformed, that lies on the road [mm]."""
+    state = last_state(result)
+    on_road = state.points[:, 1] <= TOUCHING_MM
+    nodes = front_face_nodes(state)
+    touching = nodes[on_road[nodes]]
+    Y = state.geometry.points[:, 1]
+    return float(Y[touching].max() - Y.min()) if touching.size else 0.0
+
+
+def detached_length(result: Result) -> float:
+    """Undeformed length of the bottom's leading fifth that has left the road [mm]."""
+    surface = result.surface
+    X = surface["X_mm"].to_numpy()
+    front = (X.max() - X) <= EDGE_ZONE * np.ptp(X)
+    off = np.where(surface["in_contact"].to_numpy(dtype=bool), 0.0, 1.0)
+    return float(np.trapezoid(off[front], X[front]))
+
+
+def interior_pressure(result: Result) -> float:
+    """Highest contact pressure of the bottom surface behind its leading fifth [N/mm^2]."""
+    surface = result.surface
+    X = surface["X_mm"].to_numpy()
+    behind = (X.max() - X) > EDGE_ZONE * np.ptp(X)
+    return float(surface["pressure_N_per_mm2"].to_numpy()[behind].max())
+
+
+def stress_extremes(result: Result) -> tuple[float, float]:
+    """Smallest and largest vertical stress of all elements [N/mm^2]."""
+    sigma_y = last_state(result).snapshot.cauchy_stress[:, 1]
+    return float(sigma_y.min()), float(sigma_y.max())
+
+
+def compression_at(result: Result) -> tuple[float, float]:
+    """Where the vertical compression is highest, shares of length (from the rear) and height."""
+    state = last_state(result)
+    corner, size = state.geometry.points.min(axis=0), np.ptp(state.geometry.points, axis=0)
+    place = state.geometry.points[state.geometry.cells].mean(axis=1)
+    share = (place[int(np.argmin(state.snapshot.cauchy_stress[:, 1]))] - corner) / size
+    return float(share[0] if state.direction > 0 else 1.0 - share[0]), float(share[1])
+
+
+def largest_stretch(result: Result) -> float:
+    """Largest principal stretch of all elements [-]."""
+    return float(last_state(result).snapshot.stretch.max())

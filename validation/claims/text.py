@@ -1,0 +1,49 @@
+"""The ledger for a terminal: what differs first told in full, every row wrapped."""
+
+from __future__ import annotations
+
+import textwrap
+
+import pandas as pd
+
+from validation.claims.claim import DIFFERS, HOLDS, UNCHECKED
+from validation.claims.ledger import counts
+
+_WIDTH = 100
+_LABEL = 12
+_FIELDS = ("computed", "ours", "criterion", "explanation", "experiment")
+_HEADING = (
+    "What the paper says in sections 4.2, 5.1, 5.2 and 6, in other words, and what comes out here. "
+    "Every verdict is a comparison of the numbers shown."
+)
+
+
+def ledger_text(table: pd.DataFrame) -> str:
+    """The whole ledger, by section, with the counts in the closing line."""
+    parts = [textwrap.fill(_HEADING, _WIDTH)]
+    for section, rows in table.groupby("section", sort=False):
+        parts.append(f"Section {section}\n{'-' * (8 + len(str(section)))}")
+        parts += [_row(row) for _, row in rows.iterrows()]
+    return "\n\n".join([*parts, closing_line(table)]) + "\n"
+
+
+def closing_line(table: pd.DataFrame) -> str:
+    """How many claims there are, and how many of each verdict."""
+    found = counts(table)
+    return (
+        f"{len(table)} claims: {found[HOLDS]} hold, {found[DIFFERS]} differ, "
+        f"{found[UNCHECKED]} cannot be checked"
+    )
+
+
+def _row(row: pd.Series) -> str:
+    head = f"{row['number']:>3}  {row['claim']}  [{row['verdict']}]"
+    lines = [textwrap.fill(head, _WIDTH, subsequent_indent=" " * 5)]
+    lines += [_field(name, row[name]) for name in _FIELDS if row[name] not in ("", "-")]
+    return "\n".join(lines)
+
+
+def _field(name: str, text: str) -> str:
+    indent = " " * 5
+    first = f"{indent}{name + ':':<{_LABEL + 1}}"
+    return textwrap.fill(text, _WIDTH, initial_indent=first, subsequent_indent=" " * len(first))

@@ -1,0 +1,75 @@
+"""Quantities of a run's last state that say where the block is warm."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fem.results import Result
+from fem.snapshot import FloatArray
+from fem.surface_profile import interior_peak
+from validation.claims.shape import front_face_nodes
+from validation.drawing.block_drawing import cell_areas
+from validation.drawing.state_panels import last_state
+
+
+def start_temperature(result: Result) -> float:
+    """Temperature before the sliding [deg C]."""
+    return float(result.case.heat.ambient_C)
+
+
+def rise(result: Result) -> float:
+    """Highest interior temperature above the start [K]."""
+    return float(result.summary["T_max_C"]) - start_temperature(result)
+
+
+def front_edge_temperature(result: Result) -> float:
+    """Highest temperature of the front edge, on the bottom or on the rolled face [deg C]."""
+    state = last_state(result)
+    face = state.snapshot.temperature[front_face_nodes(state)]
+    surface = result.surface
+    bottom = interior_peak(surface["X_mm"], surface["T_C"]).T_edge_C
+    return max(bottom, float(face.max()))
+
+
+def column_below_peak(result: Result) -> tuple[FloatArray, FloatArray]:
+    """Distance from the bottom [mm] and temperature rise [K] above the hottest interior point."""
+    state = last_state(result)
+    X, Y = state.geometry.points.T
+    place = interior_peak(result.surface["X_mm"], result.surface["T_C"]).X_of_peak_mm
+    if state.direction < 0:
+        place = X.max() - place
+    nodes = np.flatnonzero(np.isclose(X, X[np.argmin(np.abs(X - place))]))
+    nodes = nodes[np.argsort(Y[nodes])]
+    T = state.snapshot.temperature[nodes] - start_temperature(result)
+    return np.asarray(Y[nodes] - Y.min()), np.asarray(T)
+
+
+def heated_depth(result: Result, share: float = 0.1) -> float:
+    """Distance from the bottom at which the rise has fallen to a share of the surface's [mm]."""
+    depth, T = column_below_peak(result)
+    relative = T / T[0]
+    first = int(np.argmax(relative < share))
+    if relative[first] >= share:
+        return float(depth[-1])
+    return float(np.interp(-share, -relative[first - 1 : first + 1], depth[first - 1 : first + 1]))
+
+
+def surface_gradient(result: Result) -> float:
+    """Fall of the temperature with the distance from the bottom, at the surface [K/mm]."""
+    depth, T = column_below_peak(result)
+    return float((T[0] - T[1]) / (depth[1] - depth[0]))
+
+
+def cell_rises(result: Result) -> tuple[FloatArray, FloatArray]:
+    """Mean temperature rise [K] and undeformed area [mm^2] of each element."""
+    state = last_state(result)
+    T = state.snapshot.temperature[state.geometry.cells].mean(axis=1)
+    area = cell_areas(state.geometry.points[state.geometry.cells])
+    return np.asarray(T - start_temperature(result)), area
+
+
+def profiles(results: list[Result], points: int = 401) -> FloatArray:
+    """Temperatures of bottom surfaces at common places, a row per result [deg C]."""
+    ends = results[0].surface["X_mm"]
+    X = np.linspace(float(ends.min()), float(ends.max()), points)
+    return np.array([np.interp(X, r.surface["X_mm"], r.surface["T_C"]) for r in results])

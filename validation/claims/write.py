@@ -1,0 +1,23 @@
+"""Checks all claims with the runs of a folder and writes the ledger there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from fem.atomic_files import write_text
+from validation.claims.evidence import Evidence
+from validation.claims.ledger import ledger_table
+from validation.claims.text import ledger_text
+
+
+def write_claims(directory: str | Path) -> tuple[Path, Path]:
+    """Write ``claims.csv`` and ``claims.txt``; both paths are returned.
+
+    Runs of the paper's studies that are missing in ``directory/runs`` are simulated there first.
+    """
+    directory = Path(directory)
+    table = ledger_table(Evidence(directory))
+    csv, text = directory / "claims.csv", directory / "claims.txt"
+    write_text(csv, table.to_csv(index=False, lineterminator="\n"))
+    write_text(text, ledger_text(table))
+    return csv, text
