@@ -24,6 +24,8 @@ HEADINGS = {
 COLOURS = {PHYSICS: BLUE, NUMERICS: VERMILLION}
 #: To what the paper's temperatures were measured at best [K].
 MEASURED_TO_K = 1.0
+#: How many times longer than the next one a bar must be to be cut.
+OUTLIER = 4.0
 _ROW_MM, _AROUND_MM = 4.6, 24.0
 _BAR = 0.68
 
@@ -100,16 +102,19 @@ def _words(row: pd.Series, *, first: bool) -> str:
 
 def _draw_panel(axes: Axes, lines: list[_Line], column: str) -> None:
     values = [0.0 if line.row is None else float(line.row[column]) for line in lines]
-    known = [0.0, *(value for value in values if not np.isnan(value))]
-    room = 0.42 * max(max(known) - min(known), 1e-6)
-    axes.set_xlim(min(known) - room, max(known) + room)
+    known = np.array([0.0, *(value for value in values if not np.isnan(value))])
+    longest = limit(known)
+    shown = np.clip(known, -longest, longest)
+    room = (0.42 if longest == np.abs(known).max() else 0.55) * max(np.ptp(shown), 1e-6)
+    low, high = shown.min() - room, shown.max() + room
+    axes.set_xlim(low, high)
     for place, (line, value) in enumerate(zip(lines, values, strict=True)):
         if line.first:
             axes.axhline(place - 0.5, color="#DDDDDD", lw=0.5, zorder=0.5)
         if line.row is not None and np.isnan(value):
             _say_where_it_stopped(axes, place, float(line.row["reached_mm"]))
         elif line.row is not None:
-            _draw_bar(axes, place, value, COLOURS[line.group])
+            _draw_bar(axes, place, value, COLOURS[line.group], longest)
     axes.axvline(0.0, color="black", lw=0.6)
     axes.set_ylim(len(lines) - 0.4, -0.6)
     axes.tick_params(axis="y", length=0, pad=6.0)
@@ -118,19 +123,30 @@ def _draw_panel(axes: Axes, lines: list[_Line], column: str) -> None:
     axes.set_axisbelow(True)
 
 
-def _draw_bar(axes: Axes, place: int, value: float, colour: str) -> None:
-    """Draw a bar with its value outside its end."""
-    axes.barh(place, value, height=_BAR, color=colour, lw=0)
+def _draw_bar(axes: Axes, place: int, value: float, colour: str, longest: float) -> None:
+    """Draw a bar with its value outside its end; one that is too long ends in an arrow."""
+    end = float(np.clip(value, -longest, longest))
+    axes.barh(place, end, height=_BAR, color=colour, lw=0)
     left = value < 0.0
+    if end != value:
+        axes.plot(end, place, marker="<" if left else ">", color=colour, ms=7.0, clip_on=False)
     axes.annotate(
         signed(value),
-        (value, place),
-        xytext=(-2.0 if left else 2.0, 0.0),
+        (end, place),
+        xytext=((-2.0 if left else 2.0) * (1.0 if end == value else 2.5), 0.0),
         textcoords="offset points",
         ha="right" if left else "left",
         va="center",
         fontsize=6.5,
     )
+
+
+def limit(values: np.ndarray) -> float:
+    """Longest bar: one that is many times longer than all others would make them unreadable."""
+    sizes = np.sort(np.abs(values))
+    if len(sizes) > 1 and sizes[-1] > OUTLIER * sizes[-2]:
+        return float(1.25 * sizes[-2]) or float(sizes[-1])
+    return float(sizes[-1])
 
 
 def _say_where_it_stopped(axes: Axes, place: int, reached_mm: float) -> None:

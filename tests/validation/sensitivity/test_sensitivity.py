@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -13,13 +14,13 @@ from validation.sensitivity import write
 from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS
 from validation.sensitivity.table import DIFFERENCES, sensitivity_table
 from validation.sensitivity.text import sensitivity_text
-from validation.sensitivity.tornado import PANELS, by_influence, draw, signed
+from validation.sensitivity.tornado import PANELS, by_influence, draw, limit, signed
 from validation.sweeps.study import read_study
 
 STOPPED = {"status": "not converged", "reason": "the step became too short", "T_max_C": 31.0}
 CHANGES = {
     "height_7.0": {"T_max_C": 49.0, "A_T_K_mm": 440.0, "friction_force_N_per_mm": 4.41},
-    "height_10.0": {"T_max_C": 45.0},
+    "height_10.0": {"T_max_C": 45.0, "A_T_K_mm": 380.0, "friction_force_N_per_mm": 4.46},
     "bulk-ratio_20.0": {"T_max_C": 50.0},
     "mesh_fine": {"T_max_C": 47.9, "A_T_K_mm": 401.0},
     "top_pressure": STOPPED,
@@ -57,7 +58,8 @@ def test_the_base_is_the_papers_introductory_example():
 
 def test_what_the_solver_only_needs_is_told_from_what_the_paper_leaves_open():
     solver = {key for key in PARAMETERS if key.startswith("solver.")} | {"block.mesh"}
-    assert {PARAMETERS[key].group for key in solver} == {NUMERICS}
+    assert {PARAMETERS[key].group for key in solver - {"solver.self_contact"}} == {NUMERICS}
+    assert PARAMETERS["solver.self_contact"].group == PHYSICS
     assert PARAMETERS["rubber.bulk_ratio"].group == PHYSICS
 
 
@@ -139,6 +141,21 @@ def test_values_at_the_bars_stay_inside_their_panel(table):
             box = text.get_window_extent(renderer)
             assert panel.x0 <= box.x0, text.get_text()
             assert box.x1 <= panel.x1, text.get_text()
+
+
+def test_a_bar_far_longer_than_all_others_is_cut_but_keeps_its_value():
+    values = {"mesh_fine": {"T_max_C": 46.0}, "height_7.0": {"T_max_C": 20.0}}
+    axes = draw(sensitivity_table(made_up_study(values))).axes[0]
+    widths = [bar.get_width() for bar in axes.patches if bar.get_height() < 1.0]
+    assert min(widths) == pytest.approx(-2.5)
+    assert "−28.0" in [text.get_text() for text in axes.texts]
+    assert [line.get_marker() for line in axes.lines].count("<") == 1
+
+
+def test_bars_of_similar_length_are_not_cut():
+    assert limit(np.array([0.0, 1.0, -3.9])) == 3.9
+    assert limit(np.array([0.0, 1.0, -4.1])) == 1.25
+    assert limit(np.array([0.0, 0.0, 3.0])) == 3.0
 
 
 @pytest.mark.parametrize(
