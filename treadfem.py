@@ -20,6 +20,7 @@ from fem import Case, simulate
 from fem.case_errors import CaseError
 from fem.case_reading import parse_override
 from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
+from fem.output_folder import check_output_folder
 from fem.resume import resumable
 from fem.template import case_template
 
@@ -131,7 +132,7 @@ def _add_run(commands: Any) -> None:
 def _run(arguments: argparse.Namespace) -> int:
     case = _load(arguments)
     directory = Path(arguments.output or Path("results") / Path(arguments.case).stem)
-    _check_writable(directory)
+    check_output_folder(directory)
     checkpoint = directory / CHECKPOINT_FILE
     found = resumable(directory, case) if arguments.resume else "nothing"
     if not arguments.quiet:
@@ -170,19 +171,6 @@ def _say_how_it_starts(found: str, checkpoint: Path, *, resume: bool) -> None:
         print(f"no checkpoint in {checkpoint.parent}: starting from the beginning", flush=True)
     elif checkpoint.exists():
         print(f"starting from the beginning; --resume goes on from {checkpoint}", flush=True)
-
-
-def _check_writable(directory: Path) -> None:
-    """Refuse an output folder that cannot be made, before hours are spent on filling it."""
-    existing = directory.absolute()
-    while not existing.exists() and existing != existing.parent:
-        existing = existing.parent
-    if existing.is_dir() and os.access(existing, os.W_OK | os.X_OK):
-        return
-    reason = "a folder without permission to write" if existing.is_dir() else "a file"
-    raise CaseError(
-        file=str(directory), key="-o", found=f"{existing}: {reason}", expected="a writable folder"
-    )
 
 
 class _Interruptible:
@@ -303,7 +291,7 @@ def _sweep(arguments: argparse.Namespace) -> int:
     from validation.sweeps.sweep_workers import SchedulerLostError
 
     directory = Path(arguments.output or Path("results") / Path(arguments.study).stem)
-    _check_writable(directory)
+    check_output_folder(directory)
     try:
         with _terminable(), SweepBar() as bar:
             state = sweep(
@@ -353,7 +341,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     from calibration.errors import DataError
     from validation.measured.compare_command import write_comparison
 
-    _check_writable(Path(arguments.output))
+    check_output_folder(Path(arguments.output))
     try:
         print(write_comparison(arguments.measured, arguments.results, arguments.output))
     except DataError as error:
@@ -487,7 +475,7 @@ def _table(arguments: argparse.Namespace) -> int:
 
 def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list[int]:
     """Numbers that are asked for, once it is clear that they can be made and written."""
-    _check_writable(Path(arguments.output))
+    check_output_folder(Path(arguments.output))
     if arguments.number == "all":
         return sorted(known)
     if arguments.number not in map(str, known):

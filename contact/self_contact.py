@@ -376,7 +376,7 @@ def _geometry(pairs: Pairs, x: FloatArray) -> SegmentGeometry:
     return segment_geometry(s, a, b, pairs.orientation)
 
 
-def penetration(pairs: Pairs, x: FloatArray, boundary: Boundary) -> float:
+def pair_penetration(pairs: Pairs, x: FloatArray, boundary: Boundary) -> float:
     """Largest penetration of the pairs relative to the local element size [-]."""
     if pairs.place.size == 0:
         return 0.0

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from contact.active_set import ContactForces, ContactStatus
 from contact.conductance import GapConductance
 from contact.friction import ThermalFriction
+from contact.overlap import crossing_depth
 from contact.partition import HeatPartition
 from contact.self_contact import (
     Pairs,
@@ -22,7 +23,7 @@ from contact.self_contact import (
     find_pairs,
     followed,
     heat_sources,
-    penetration,
+    pair_penetration,
 )
 from fem import newton
 from fem.heat import HeatLoad, HeatModel, HeatState
@@ -37,6 +38,8 @@ IntArray = NDArray[np.int64]
 W_PER_M2K = 1e-3
 #: Lag of the friction force below which no further pass is made [-].
 LAG_TOLERANCE = 1e-3
+#: Deepest penetration of the block into itself in an accepted step, over the local element size.
+PENETRATION_MAX = 0.01
 #: Largest number of passes over friction coefficient and pairs of self-contact.
 PASSES_MAX = 6
 
@@ -256,9 +259,15 @@ class CoupledModel:
             mu_settled = lag < LAG_TOLERANCE or number >= self.friction_passes
             next_pairs = self._followed(state, pairs, result.x.u)
             if mu_settled and next_pairs is pairs:
+                penetration = self._penetration(problem, result.x.u)
+                if self.self_contact is not None and penetration > PENETRATION_MAX:
+                    return RejectedStep(
+                        failure=newton.Failure.PENETRATION, iterations=iterations,
+                        detail=f"by {penetration:.1%} of the local element size",
+                    )  # fmt: skip
                 return self._accept(
                     state, target, problem, result, contact,
-                    iterations=iterations, hardest=hardest, lag=lag,
+                    iterations=iterations, hardest=hardest, lag=lag, penetration=penetration,
                 )  # fmt: skip
             mu, pairs = mu if mu_settled else mu_next, next_pairs
             start = replace(result.x, reactions=None)
@@ -317,6 +326,7 @@ class CoupledModel:
         iterations: int,
         hardest: int,
         lag: float,
+        penetration: float,
     ) -> AcceptedStep:
         x = result.x
         power = np.abs(contact.shear * contact.slip_velocity)
@@ -340,7 +350,7 @@ class CoupledModel:
             problem=problem, iterations=iterations, hardest_pass=hardest, lag_error=lag,
             power=power, kappa=kappa,
             capped=uncapped > self.laws.partition.cap, self_friction=float(work.sum()),
-            penetration=self._penetration(problem, x.u),
+            penetration=penetration,
         )  # fmt: skip
 
     def _self_friction(
@@ -353,11 +363,12 @@ class CoupledModel:
         return heat_sources(pairs, forces, dissipation(pairs, forces))
 
     def _penetration(self, problem: StepProblem, u: FloatArray) -> float:
-        """Largest penetration relative to the local element size [-]."""
+        """Largest penetration relative to the local element size, of pairs and of others [-]."""
+        x, boundary = self.mechanics.mesh.points + u, self.mechanics.boundary
+        depth = crossing_depth(x[boundary.nodes], boundary.size)
         if problem.load.pairs is None:
-            return 0.0
-        x = self.mechanics.mesh.points + u
-        return penetration(problem.load.pairs, x, self.mechanics.boundary)
+            return depth
+        return max(depth, pair_penetration(problem.load.pairs, x, boundary))
 
     def _self_shear(self, problem: StepProblem, evaluation: StepEvaluation) -> FloatArray | None:
         """Tangential forces of self-contact by boundary node."""

@@ -59,6 +59,7 @@ class Failure(Enum):
     SINGULAR = "the tangent is singular (limit point or missing support)"
     DIVERGED = "the residual grows whatever the step length"
     CYCLING = "the active set cycles: no contact state fits a step of this length"
+    PENETRATION = "the surface passes through itself in a step of this length"
 
 
 @dataclass(frozen=True, kw_only=True)

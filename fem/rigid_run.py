@@ -18,6 +18,7 @@ from fem.checkpoint import Checkpoint, notes
 from fem.heat import HeatModel
 from fem.model_parts import Progress, mesh_of
 from fem.outcome import INTERRUPTED, OK, Outcome
+from fem.program_version import program_version
 from fem.recorder import temperature_columns
 from fem.results import Result
 from fem.rigid_block import RigidSliding, RigidStep, slide_rigid_block
@@ -217,6 +218,7 @@ class _RigidRun:
             "rejected_steps": 0,
             "friction_lag_error": largest(history, "friction_lag_error"),
             "min_J": 1.0,
+            "program_version": program_version(),
         }
 
 

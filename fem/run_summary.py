@@ -47,3 +47,18 @@ def steady_share(history: pd.DataFrame, part: str, whole: str) -> float:
     span = pd.concat([first, late])[[part, whole]]
     change = span.iloc[-1] - span.iloc[0]
     return float(change[part] / change[whole]) if change[whole] > 0.0 else 0.0
+
+
+def steady_shares(history: pd.DataFrame) -> dict[str, float]:
+    """What becomes, in the second half of the slide, of the work that is not friction [-].
+
+    `regularisation_share` is dissipated by the Kelvin-Voigt term, `storage_share` stored as
+    strain energy. In steady sliding both vanish: nothing is stored and no strain changes. A
+    storage share of some per cent tells that the leading edge is still rolling under; what its
+    snaps release is then found in the regularisation share, however small the viscosity.
+    """
+    work = "work_in_mJ_per_mm"
+    return {
+        "regularisation_share": steady_share(history, "viscous_dissipation_mJ_per_mm", work),
+        "storage_share": steady_share(history, "strain_energy_mJ_per_mm", work),
+    }

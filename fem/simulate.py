@@ -22,18 +22,19 @@ from fem.mechanics import BlockMechanics
 from fem.mesh import BlockMesh
 from fem.model_parts import Progress, mesh_of
 from fem.outcome import INTERRUPTED, OK, Outcome, failed
+from fem.program_version import program_version
 from fem.programme import Phase, programme
 from fem.recorder import Recorder
 from fem.regularisation import viscosity
 from fem.results import Result
 from fem.rigid_run import simulate_rigid
 from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
-from fem.run_summary import largest, last_values, sliding_means, steady_share
+from fem.run_summary import largest, last_values, sliding_means, steady_shares
 from fem.step_control import StepController, landed
 
-#: Contact modulus of the block with itself over its bulk modulus: a pressure of 30 % of the
+#: Contact modulus of the block with itself over its bulk modulus: a pressure of 45 % of the
 #: bulk modulus then presses a node in by 1 % of the local element size.
-SELF_CONTACT_STIFFNESS = 30.0
+SELF_CONTACT_STIFFNESS = 45.0
 
 
 def coupled_model(case: Case) -> CoupledModel:
@@ -277,9 +278,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "wall_s": run.wall,
         "energy_error": run.audit.error,
         "heat_error": abs(heat.imbalance) / made if made > 0.0 else 0.0,
-        "regularisation_share": steady_share(
-            history, "viscous_dissipation_mJ_per_mm", "work_in_mJ_per_mm"
-        ),
+        **steady_shares(history),
         "capped_heat_share": run.audit.capped_share,
         "rejected_steps": run.rejected,
         "regularisation_share_with_onset": run.audit.regularisation_share,
@@ -287,6 +286,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "largest_self_penetration": largest(history, "self_contact_penetration"),
         "min_J": run.recorder.smallest_J,
         "solver_s": mechanics.solver.seconds,
+        "program_version": program_version(),
     }
     return summary
 

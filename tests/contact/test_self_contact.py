@@ -21,8 +21,8 @@ from contact.self_contact import (
     heat_sources,
     node_normals,
     pair_forces,
+    pair_penetration,
     pair_tangents,
-    penetration,
     segment_geometry,
 )
 
@@ -493,10 +493,10 @@ def test_slip_is_measured_from_the_accepted_state():
 
 def test_penetration_is_relative_to_the_local_size():
     now = slot(-0.001, shift=0.05)
-    assert penetration(pairs_of(now), now, boundary_of(now, size=0.1)) == pytest.approx(0.01)
+    assert pair_penetration(pairs_of(now), now, boundary_of(now, size=0.1)) == pytest.approx(0.01)
     apart = slot(0.001, shift=0.05)
-    assert penetration(pairs_of(apart), apart, boundary_of(apart)) == 0.0
-    assert penetration(pairs_of(slot(5.0)), apart, boundary_of(apart)) == 0.0
+    assert pair_penetration(pairs_of(apart), apart, boundary_of(apart)) == 0.0
+    assert pair_penetration(pairs_of(slot(5.0)), apart, boundary_of(apart)) == 0.0
 
 
 # ---------------------------------------------------------------------- going on with the pairs

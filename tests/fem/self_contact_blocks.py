@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contact.self_contact import dissipation, find_pairs, followed, penetration
+from contact.self_contact import dissipation, find_pairs, followed, pair_penetration
 from fem import newton
 from fem.simulate import SELF_CONTACT_STIFFNESS
 from fem.state import MechanicalState
@@ -57,7 +57,7 @@ def self_contact_step(system, state, load, *, reach, mu=1.0, passes=8):
     )
     return SelfStep(
         result=result, state=after, pairs=pairs,
-        penetration=penetration(pairs, points + u, boundary),
+        penetration=pair_penetration(pairs, points + u, boundary),
         friction_work=float(dissipation(pairs, forces).sum()),
     )  # fmt: skip
 

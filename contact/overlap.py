@@ -1,0 +1,77 @@
+"""Whether a boundary cuts itself, judged by its segments alone.
+
+Self-contact acts between the pairs that its search has found. This looks at the outcome without
+that search, so that what it missed cannot go unseen.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+def crossing_segments(chain: FloatArray) -> tuple[IntArray, IntArray]:
+    """Pairs of segments of a chain of points that cut each other.
+
+    Parameters
+    ----------
+    chain : (m, 2) float array
+        Points along the boundary [mm]; segment i joins points i and i + 1.
+
+    Returns
+    -------
+    first, second : (k,) int arrays
+        Numbers of the segments. Segments that share a point do not count.
+    """
+    start, edge = chain[:-1], np.diff(chain, axis=0)
+    # Segments that cut each other have middles no further apart than the longer one is long.
+    reach = float(np.hypot(edge[:, 0], edge[:, 1]).max())
+    near = cKDTree(start + 0.5 * edge).query_pairs(reach, output_type="ndarray")
+    i, j = near[np.abs(near[:, 0] - near[:, 1]) > 1].astype(np.int64).T
+    apart = _sides_differ(start[i], edge[i], chain[j], chain[j + 1])
+    cut = apart & _sides_differ(start[j], edge[j], chain[i], chain[i + 1])
+    return i[cut], j[cut]
+
+
+def crossing_depth(chain: FloatArray, size: FloatArray) -> float:
+    """Depth to which a boundary cuts itself, relative to the local element size [-].
+
+    Parameters
+    ----------
+    chain : (m, 2) float array
+        Points along the boundary [mm].
+    size : (m,) float array
+        Local element size at the points [mm].
+
+    Returns
+    -------
+    float
+        Of each crossing the shortest way from an end of one segment to the other; the largest of
+        all, 0 without a crossing.
+    """
+    i, j = crossing_segments(chain)
+    ends = ((i, j), (i + 1, j), (j, i), (j + 1, i))
+    depths = [_distance(chain[k], chain[m], chain[m + 1]) / size[k] for k, m in ends]
+    return float(np.min(depths, axis=0).max(initial=0.0))
+
+
+def _sides_differ(
+    start: FloatArray, edge: FloatArray, p: FloatArray, q: FloatArray
+) -> NDArray[np.bool_]:
+    """Whether points p and q lie on different sides of lines along `edge`, all (k, 2)."""
+    return np.asarray(_cross(edge, p - start) * _cross(edge, q - start) < 0.0)
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+
+
+def _distance(s: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    """Distance of points from segments, all (k, 2) [mm]."""
+    e = b - a
+    xi = np.clip(np.sum((s - a) * e, axis=1) / np.sum(e**2, axis=1), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(s - a - xi[:, None] * e, axis=1))
