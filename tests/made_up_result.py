@@ -8,6 +8,7 @@ import pandas as pd
 from fem.case import Case
 from fem.columns import HISTORY, SURFACE
 from fem.mesh import BlockMesh, Grading, block_mesh
+from fem.program_version import program_version
 from fem.results import Result
 from fem.snapshot import BlockGeometry, Snapshot
 
@@ -113,6 +114,7 @@ def made_up_summary() -> dict[str, object]:
         "heat_error": 1e-12,
         "regularisation_share": 0.01,
         "capped_heat_share": 0.1,
+        "program_version": program_version(),
     }
 
 

@@ -6,8 +6,7 @@ from pathlib import Path
 
 from fem.case import Case
 from fem.results import Result
-from fem.simulate import simulate
-from validation.sweeps.study import STUDIES, holds
+from validation.sweeps.study import STUDIES, holds, simulate_missing
 
 
 def introductory_case() -> Case:
@@ -24,8 +23,8 @@ def introductory_run(directory: str | Path) -> Result:
     directory = Path(directory)
     own = directory / "runs" / "introductory"
     case = introductory_case()
-    for folder in (directory.parent / "run", own):
-        if holds(folder, case):
-            return Result.read(folder)
-    simulate(case).write(own)
+    beside = directory.parent / "run"
+    if holds(beside, case):
+        return Result.read(beside)
+    simulate_missing([(own, case)])
     return Result.read(own)

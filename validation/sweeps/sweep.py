@@ -4,42 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
-from fem.outcome import OK
 from fem.program_version import program_version
 from validation.sweeps.study import read_study
 from validation.sweeps.sweep_case import SweepTask, finished_outcome, forget
+from validation.sweeps.sweep_progress import SweepProgress
 from validation.sweeps.sweep_table import SweepTable
 from validation.sweeps.sweep_workers import executor, number_of_workers
-
-
-@dataclass(frozen=True, kw_only=True)
-class SweepProgress:
-    """How far a sweep is.
-
-    Attributes
-    ----------
-    cases : int
-        Cases of the study.
-    done : int
-        Cases that have finished, the ones an earlier sweep had finished among them.
-    earlier : int
-        Cases that an earlier sweep had finished.
-    status : dict
-        Number of finished cases by status.
-    """
-
-    cases: int
-    done: int
-    earlier: int
-    status: dict[str, int]
-
-    @property
-    def all_ok(self) -> bool:
-        """Whether every case has finished as it should."""
-        return self.status.get(OK, 0) == self.cases
 
 
 def sweep(
@@ -111,7 +83,8 @@ def sweep(
 
     with executor(workers=max(1, min(workers, len(waiting))), scheduler=scheduler) as execute:
         for task in tasks.values():
-            forget(task, keep=task.name in table.rows)
+            forget(task, marker=task.name not in table.rows, checkpoint=not resume)
+        (directory / "runs").mkdir(parents=True, exist_ok=True)
         table.write()
         report()
         for outcome in execute(waiting):

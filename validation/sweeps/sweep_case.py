@@ -2,7 +2,8 @@
 
 A case is done when its folder holds the marker `sweep.json`, which names the case and the program
 that made it. The marker is removed before anything is written and written after everything else,
-so a worker may be killed at any moment.
+so a worker may be killed at any moment. Meanwhile the folder has a checkpoint, from which another
+worker or a resumed sweep goes on, to the same result.
 """
 
 from __future__ import annotations
@@ -18,9 +19,10 @@ from typing import Any
 
 from fem.atomic_files import write_text
 from fem.case import Case
+from fem.checkpoint import CHECKPOINT_FILE, CheckpointError, remove_checkpoint
 from fem.outcome import INTERRUPTED, NOT_CONVERGED, OK
 from fem.program_version import program_version
-from fem.results import CASE_FILE, SUMMARY_CSV, read_summary
+from fem.results import CASE_FILE, Result, read_summary
 from fem.simulate import simulate
 
 MARKER = "sweep.json"
@@ -113,11 +115,13 @@ def finished_outcome(task: SweepTask) -> CaseOutcome | None:
     return CaseOutcome(name=task.name, summary=summary, timing=timing)
 
 
-def forget(task: SweepTask, *, keep: bool = False) -> None:
-    """Remove the marker (unless it is kept) and what a killed worker left half-written."""
+def forget(task: SweepTask, *, marker: bool = True, checkpoint: bool = True) -> None:
+    """Remove the marker, the checkpoint, and what a killed worker left half-written."""
     folder = Path(task.folder)
-    if not keep:
+    if marker:
         (folder / MARKER).unlink(missing_ok=True)
+    if checkpoint:
+        remove_checkpoint(folder / CHECKPOINT_FILE)
     for leftover in (*folder.parent.glob(f".{folder.name}.*"), *folder.glob(f".{folder.name}.*")):
         shutil.rmtree(leftover, ignore_errors=True)
 
@@ -131,8 +135,8 @@ def _simulated(task: SweepTask) -> dict[str, Any]:
     if not _sees_the_sweep(folder):
         raise RuntimeError(f"the worker does not see {task.folder}: it needs a shared disk")
     # Again, since a worker may have died on this case a minute ago.
-    forget(task)
-    result = simulate(task.case)
+    forget(task, checkpoint=False)
+    result = _gone_on_with(task.case, folder / CHECKPOINT_FILE)
     if result.summary["status"] == INTERRUPTED:
         raise KeyboardInterrupt
     result.write(folder)
@@ -142,13 +146,23 @@ def _simulated(task: SweepTask) -> dict[str, Any]:
 
         write_run_figures(folder)
     (folder / FAILURE_LOG).unlink(missing_ok=True)
+    remove_checkpoint(folder / CHECKPOINT_FILE)
     # As it will be read again by a resumed sweep: the two tables have to be the same.
     return read_summary(folder)
 
 
+def _gone_on_with(case: Case, checkpoint: Path) -> Result:
+    """Result of a case, from its checkpoint on if there is one that can be used."""
+    try:
+        return simulate(case, checkpoint=checkpoint, resume=True)
+    except CheckpointError:
+        remove_checkpoint(checkpoint)
+        return simulate(case, checkpoint=checkpoint)
+
+
 def _sees_the_sweep(folder: Path) -> bool:
-    """Whether the folder's sweep, which wrote its table before it asked for runs, is there."""
-    return (folder.parent.parent / SUMMARY_CSV).is_file()
+    """Whether the folder of all runs, which was made before runs were asked for, is there."""
+    return folder.parent.is_dir()
 
 
 def _mark(task: SweepTask, timing: dict[str, float]) -> None:

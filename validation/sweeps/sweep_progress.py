@@ -4,15 +4,42 @@ from __future__ import annotations
 
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from fem.outcome import OK
 from fem.results import SUMMARY_CSV
-from validation.sweeps.sweep import SweepProgress
 
 _BAR = "{n_fmt}/{total_fmt} cases |{bar}| {elapsed}{postfix}"
 _REDRAW_S = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class SweepProgress:
+    """How far a sweep is.
+
+    Attributes
+    ----------
+    cases : int
+        Cases of the study.
+    done : int
+        Cases that have finished, the ones an earlier sweep had finished among them.
+    earlier : int
+        Cases that an earlier sweep had finished.
+    status : dict
+        Number of finished cases by status.
+    """
+
+    cases: int
+    done: int
+    earlier: int
+    status: dict[str, int]
+
+    @property
+    def all_ok(self) -> bool:
+        """Whether every case has finished as it should."""
+        return self.status.get(OK, 0) == self.cases
 
 
 class SweepBar:

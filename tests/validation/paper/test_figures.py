@@ -16,6 +16,7 @@ from validation.drawing import run_figures
 from validation.paper import fig7, fig8, introductory
 from validation.paper.figures import FIGURES, make_figure
 from validation.paper.introductory import introductory_case, introductory_run
+from validation.sweeps import sweep_case
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +55,7 @@ def test_figure_8_is_to_scale_labelled_and_nothing_overlaps(result):
 
 def test_figure_8_uses_the_run_beside_its_folder(tmp_path, monkeypatch, result):
     monkeypatch.setattr(introductory, "introductory_case", made_up_case)
-    monkeypatch.setattr(introductory, "simulate", lambda case: pytest.fail("simulated again"))
+    monkeypatch.setattr(introductory, "simulate_missing", lambda _: pytest.fail("simulated again"))
     result.write(tmp_path / "run")
     path = make_figure(8, tmp_path / "figures")
     assert list(pd.read_csv(path.with_suffix(".csv"))) == list(fig8.SHOWN)
@@ -62,8 +63,13 @@ def test_figure_8_uses_the_run_beside_its_folder(tmp_path, monkeypatch, result):
 
 def test_a_run_of_another_case_is_not_mistaken_for_the_introductory_one(tmp_path, monkeypatch):
     calls = []
+
+    def simulate(case, **options):
+        calls.append(case)
+        return made_up_result()
+
     monkeypatch.setattr(introductory, "introductory_case", made_up_case)
-    monkeypatch.setattr(introductory, "simulate", lambda c: (calls.append(c), made_up_result())[1])
+    monkeypatch.setattr(sweep_case, "simulate", simulate)
     made_up_result(velocity_mm_per_s=50.0).write(tmp_path / "run")
     for _ in range(2):
         found = introductory_run(tmp_path / "figures")

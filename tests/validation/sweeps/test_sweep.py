@@ -10,6 +10,7 @@ import pytest
 
 import treadfem
 from fem.case_errors import CaseError
+from fem.simulate import simulate
 from tests.made_up_result import made_up_case, made_up_result
 from validation.sweeps import sweep_case, sweep_workers
 from validation.sweeps.sweep import SweepProgress, sweep
@@ -25,6 +26,15 @@ distance_mm = 120.0
 [output]
 figures = false
 """
+#: Half a millimetre on few elements: a second.
+SHORT_CASE = (
+    BASE.replace("120.0", "0.5")
+    + """checkpoint_s = 0.0
+vtu = false
+[block]
+mesh = {cells_x = 20, cells_y = 8, smallest_x_mm = 0.5, smallest_y_mm = 0.25}
+"""
+)
 STUDY = 'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0, 300.0]\n'
 
 
@@ -36,7 +46,7 @@ class StubSimulation:
         self.faults: dict[float, BaseException] = {}
         self.stops: dict[float, str] = {}
 
-    def __call__(self, case):
+    def __call__(self, case, checkpoint=None, resume=False):
         velocity = case.loading.velocity_mm_per_s
         self.simulated.append(velocity)
         if velocity in self.faults:
@@ -226,8 +236,8 @@ def test_interrupted_sweep_keeps_what_is_finished_and_goes_on_from_there(study, 
 
 
 def test_simulation_that_reports_an_interrupt_ends_the_sweep(study, simulation, monkeypatch):
-    def interrupted(case):
-        result = simulation(case)
+    def interrupted(case, **options):
+        result = simulation(case, **options)
         result.summary["status"] = "interrupted"
         return result
 
@@ -381,3 +391,57 @@ def test_pipe_gets_one_line(study, simulation, capsys):
 
 def test_closing_line_tells_what_was_finished_earlier():
     assert "(12 finished earlier)" in closing_line(state(36, 12, ok=36), Path("out"))
+
+
+# -- checkpoints of the cases ----------------------------------------------------------------------
+
+
+def test_case_of_a_resumed_sweep_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
+    """Stopped after some steps, the case ends with the row of an uninterrupted sweep."""
+    (tmp_path / "case.toml").write_text(SHORT_CASE)
+    path = tmp_path / "study.toml"
+    path.write_text('base = "case.toml"')
+    sweep(path, tmp_path / "whole", workers=1)
+
+    steps = []
+
+    def stopped(case, *, checkpoint, resume):
+        def stop(progress):
+            steps.append(progress.sliding_distance_mm)
+            if len(steps) == 7:
+                raise KeyboardInterrupt
+
+        return simulate(case, checkpoint=checkpoint, resume=resume, progress=stop)
+
+    monkeypatch.setattr(sweep_case, "simulate", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        sweep(path, tmp_path / "out", workers=1)
+    kept = tmp_path / "out" / "runs" / "base" / "checkpoint.npz"
+    assert kept.is_file()
+
+    monkeypatch.setattr(sweep_case, "simulate", simulate)
+    sweep(path, tmp_path / "out", workers=1, resume=True)
+    log = (kept.parent / "run.log").read_text()
+    assert "resumed after 7 steps" in log
+    assert not kept.exists()
+    tables = [tmp_path / folder / "summary.csv" for folder in ("whole", "out")]
+    assert tables[0].read_bytes() == tables[1].read_bytes()
+
+
+def test_sweep_that_is_not_resumed_starts_its_cases_anew(study, simulation):
+    run(study)
+    kept = Path("out/runs") / rows()[0]["case"] / "checkpoint.npz"
+    kept.write_bytes(b"of an earlier sweep")
+    run(study)
+    assert not kept.exists()
+
+
+def test_damaged_checkpoint_of_a_case_means_from_the_beginning(tmp_path):
+    (tmp_path / "case.toml").write_text(SHORT_CASE)
+    path = tmp_path / "study.toml"
+    path.write_text('base = "case.toml"')
+    kept = tmp_path / "out" / "runs" / "base" / "checkpoint.npz"
+    kept.parent.mkdir(parents=True)
+    kept.write_bytes(b"half a file")
+    assert sweep(path, tmp_path / "out", workers=1, resume=True).all_ok
+    assert not kept.exists()
