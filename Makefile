@@ -11,7 +11,7 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-all lint format bench bench-update bench-scaling figures clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
@@ -21,7 +21,10 @@ help:
 	@echo "make bench-scaling  growth of time and memory with mesh and distance; takes long"
 	@echo "make figN       one figure of the paper: $(FIGURES)"
 	@echo "make tableN     one table of the paper: $(TABLES)"
-	@echo "make figures    every figure there is"
+	@echo "make figures    every figure and table there is; a second call makes what is out of date"
+	@echo "make claims     the paper's statements against the simulation, one by one"
+	@echo "make sensitivity  what the paper leaves open, one parameter at a time"
+	@echo "make report     all of that in one HTML page, $(RESULTS)/report.html"
 	@echo "make clean      remove results and caches (make distclean: .venv too)"
 
 $(READY): setup.cfg pyproject.toml constraints.txt
@@ -62,7 +65,7 @@ bench-scaling: $(READY)
 	$(BIN)/python -m pytest tests/benchmarks/test_scaling.py --benchmark-only -s
 
 # Figure 8 shows the introductory example, which is run first unless it has been run to its end.
-$(RESULTS)/run.done: examples/introductory.toml | $(READY)
+$(RESULTS)/run.done: examples/introductory.toml $(wildcard materials/*.py contact/*.py fem/*.py) | $(READY)
 	$(BIN)/treadfem run $< -o $(RESULTS)/run
 	@touch $@
 
@@ -76,6 +79,16 @@ $(TABLES): table%: $(READY)
 
 figures: $(READY) $(RESULTS)/run.done
 	$(BIN)/treadfem figure all -o $(RESULTS)/figures
+	$(BIN)/treadfem table all -o $(RESULTS)/figures
+
+claims: $(READY) $(RESULTS)/run.done
+	$(BIN)/treadfem claims -o $(RESULTS)/figures
+
+sensitivity: $(READY)
+	$(BIN)/treadfem sensitivity -o $(RESULTS)/figures
+
+report: figures claims sensitivity
+	$(BIN)/treadfem report --figures $(RESULTS)/figures -o $(RESULTS)/report.html
 
 clean:
 	rm -rf $(RESULTS) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks

@@ -11,8 +11,9 @@ import importlib.util
 import os
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -72,6 +73,9 @@ def _parser(command: str) -> argparse.ArgumentParser:
     _add_compare(commands)
     _add_figure(commands)
     _add_table(commands)
+    _add_claims(commands)
+    _add_sensitivity(commands)
+    _add_report(commands)
     _add_export(commands)
     return parser
 
@@ -341,7 +345,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     from calibration.errors import DataError
     from validation.measured.compare_command import write_comparison
 
-    check_output_folder(Path(arguments.output))
+    check_output_folder(arguments.output)
     try:
         print(write_comparison(arguments.measured, arguments.results, arguments.output))
     except DataError as error:
@@ -401,7 +405,7 @@ def _add_calibrate(commands: Any, *, wanted: bool) -> None:
         commands.add_parser("calibrate", help="fit parameters to measurements")
 
 
-# -- figure, table -----------------------------------------------------------------------------
+# -- figure, table, claims, sensitivity, report ------------------------------------------------
 
 
 #: Figures and tables share a folder, since some are made of the same runs.
@@ -426,14 +430,19 @@ def _add_numbered(commands: Any, what: str) -> argparse.ArgumentParser:
         what, help=f"make a {what} of the paper", description=f"Make a {what} of the paper."
     )
     parser.add_argument("number", metavar="N|all", help=f"number of the {what}, or all")
+    _add_folder(parser, f"{what}s")
+    return parser
+
+
+def _add_folder(parser: argparse.ArgumentParser, what: str) -> None:
     parser.add_argument(
         "-o",
         "--output",
         metavar="DIR",
         default=_PAPER,
-        help=f"folder of the {what}s (default: {_PAPER})",
+        help=f"folder of the {what} (default: {_PAPER})",
     )
-    return parser
+    parser.add_argument("--again", action="store_true", help="make what is up to date, too")
 
 
 def _figure(arguments: argparse.Namespace) -> int:
@@ -442,10 +451,10 @@ def _figure(arguments: argparse.Namespace) -> int:
     from validation.paper.figures import FIGURES, MEASURABLE, make_figure
 
     numbers = _numbers("figure", arguments, list(FIGURES))
-    measured = None
+    measured, inputs = None, []
     if arguments.measured is not None:
         try:
-            measured = read_measurements(arguments.measured)
+            measured, inputs = read_measurements(arguments.measured), [arguments.measured]
         except DataError as error:
             print(f"treadfem: {error}", file=sys.stderr)
             return BAD_INPUT
@@ -457,7 +466,10 @@ def _figure(arguments: argparse.Namespace) -> int:
                 expected="a figure that shows measurements: 11, 12 or all",
             )
     for number in numbers:
-        print(make_figure(number, arguments.output, measured))
+        make = partial(make_figure, number, arguments.output, measured)
+        own_inputs = inputs if number in MEASURABLE else []
+        if not _made(arguments, f"fig{number}", make, own_inputs):
+            return NOT_CONVERGED
     if arguments.number == "all":
         print("figures 1 and 5 of the paper are a sketch and photographs")
     return DONE
@@ -467,21 +479,118 @@ def _table(arguments: argparse.Namespace) -> int:
     from validation.paper.tables import TABLES, make_table
 
     for number in _numbers("table", arguments, list(TABLES)):
-        path = make_table(number, arguments.output)
-        print(path.read_text(encoding="utf-8"))
-        print(path)
+        make = partial(make_table, number, arguments.output)
+        if not _made(arguments, f"table{number}", make, show=True):
+            return NOT_CONVERGED
     return DONE
 
 
 def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list[int]:
     """Numbers that are asked for, once it is clear that they can be made and written."""
-    check_output_folder(Path(arguments.output))
+    check_output_folder(arguments.output)
     if arguments.number == "all":
         return sorted(known)
     if arguments.number not in map(str, known):
         expected = f"one of {', '.join(map(str, sorted(known)))} or all"
         raise CaseError(file=what, key="N", found=repr(arguments.number), expected=expected)
     return [int(arguments.number)]
+
+
+def _add_claims(commands: Any) -> None:
+    text = "Check the paper's statements against the simulation, one by one."
+    parser = commands.add_parser("claims", help="check the paper's claims", description=text)
+    _add_folder(parser, "ledger and its runs")
+    parser.set_defaults(command=_claims)
+
+
+def _claims(arguments: argparse.Namespace) -> int:
+    from validation.claims.write import write_claims
+
+    check_output_folder(arguments.output)
+    make = partial(_last, write_claims, arguments.output)
+    return DONE if _made(arguments, "claims", make, show=True) else NOT_CONVERGED
+
+
+def _last(write: Callable[[str], Sequence[Path]], directory: str) -> Path:
+    return write(directory)[-1]
+
+
+def _add_sensitivity(commands: Any) -> None:
+    text = "Vary what the paper leaves open, one parameter at a time."
+    parser = commands.add_parser("sensitivity", help="vary what is left open", description=text)
+    _add_folder(parser, "table, picture and runs")
+    parser.set_defaults(command=_sensitivity)
+
+
+def _sensitivity(arguments: argparse.Namespace) -> int:
+    from validation.sensitivity.write import write_sensitivity
+
+    check_output_folder(arguments.output)
+    make = partial(write_sensitivity, arguments.output)
+    return DONE if _made(arguments, "sensitivity", make, show=True) else NOT_CONVERGED
+
+
+def _made(
+    arguments: argparse.Namespace,
+    name: str,
+    make: Callable[[], Path],
+    inputs: Sequence[str] = (),
+    *,
+    show: bool = False,
+) -> bool:
+    """Make something unless it is up to date, and say so; False if one of its runs failed."""
+    from validation.paper.kept import kept
+    from validation.sweeps.study import StudyError
+
+    directory = Path(arguments.output)
+    directory.mkdir(parents=True, exist_ok=True)
+    try:
+        made = kept(name, directory, make, inputs, again=arguments.again)
+    except StudyError as error:
+        print(f"treadfem: {name}: {error}", file=sys.stderr)
+        return False
+    if show:
+        print(made.path.read_text(encoding="utf-8"))
+    print(made.path if made.again else f"{made.path} (up to date)", flush=True)
+    return True
+
+
+def _add_report(commands: Any) -> None:
+    text = "Put all figures, tables and claims that are made into one HTML page."
+    parser = commands.add_parser("report", help="one page with everything", description=text)
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE.html",
+        default="results/report.html",
+        help="the page (default: results/report.html)",
+    )
+    parser.add_argument(
+        "--figures",
+        metavar="DIR",
+        default=_PAPER,
+        help=f"folder of figures, tables, claims and sensitivity (default: {_PAPER})",
+    )
+    parser.set_defaults(command=_report)
+
+
+def _report(arguments: argparse.Namespace) -> int:
+    from validation.report.write import write_report
+
+    figures, path = Path(arguments.figures), Path(arguments.output)
+    if not figures.is_dir():
+        raise CaseError(
+            file=str(figures),
+            key="--figures",
+            found="no such folder",
+            expected="what make figures made",
+        )
+    if path.is_dir():
+        raise CaseError(file=str(path), key="-o", found="a folder", expected="an HTML file")
+    check_output_folder(path.parent)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    print(write_report(figures, path))
+    return DONE
 
 
 # -- export ------------------------------------------------------------------------------------

@@ -262,7 +262,9 @@ def test_a_step_in_which_the_surface_passes_through_itself_is_rejected(monkeypat
     """And smaller ones are tried, until the run ends with that reason."""
     monkeypatch.setattr("fem.coupling.crossing_depth", lambda chain, size: 1.5 * LARGEST)
     run = simulate(Case.from_dict({
-        "block": {"mesh": {"cells_x": 12, "cells_y": 5, "smallest_x_mm": 1.0, "smallest_y_mm": 1.0}},
+        "block": {
+            "mesh": {"cells_x": 12, "cells_y": 5, "smallest_x_mm": 1.0, "smallest_y_mm": 1.0}
+        },
         "loading": {
             "mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300.0, "distance_mm": 1.0,
         },

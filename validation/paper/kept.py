@@ -1,0 +1,129 @@
+"""Figures and tables that are up to date are not made again.
+
+Beside what is made into a folder, ``made/NAME.json`` keeps what it was made from and with: the
+program, the code and data files of validation and calibration, the drawing packages, and files
+that the user named. As long as all that is the same and the files are untouched, they stay.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import NamedTuple
+
+import calibration
+import validation
+from fem.atomic_files import write_text
+from fem.program_version import program_version
+
+_FOLDERS = tuple(Path(str(package.__file__)).parent for package in (calibration, validation))
+_SUFFIXES = {".py", ".toml", ".csv", ".html"}
+_PACKAGES = ("matplotlib", "numpy", "pandas", "scipy")
+
+
+class Made(NamedTuple):
+    """A figure or table.
+
+    Attributes
+    ----------
+    path : Path
+        Its main file.
+    again : bool
+        Whether it was made just now; otherwise it was up to date.
+    """
+
+    path: Path
+    again: bool
+
+
+def kept(
+    name: str,
+    directory: str | Path,
+    make: Callable[[], Path],
+    inputs: Sequence[str | Path] = (),
+    *,
+    again: bool = False,
+) -> Made:
+    """Make a figure or table into a folder unless it lies there up to date.
+
+    Parameters
+    ----------
+    name : str
+        Its name, with which all of its files begin, e.g. ``fig9``.
+    directory : str or Path
+        Folder of its files.
+    make : callable
+        Makes it and returns its main file.
+    inputs : sequence of paths
+        Files of the user that it is made from.
+    again : bool
+        Make it even if it is up to date.
+
+    Returns
+    -------
+    Made
+    """
+    record = Path(directory) / "made" / f"{name}.json"
+    source = _fingerprint(tuple(map(str, inputs)))
+    known = _read(record)
+    files = known.get("files", {})
+    same = known.get("source") == source and files == _contents(name, Path(directory))
+    if same and files and not again:
+        return Made(Path(directory) / str(known["main"]), again=False)
+    record.unlink(missing_ok=True)
+    path = make()
+    about = {
+        "source": source,
+        "main": path.relative_to(directory).as_posix(),
+        "files": _contents(name, Path(directory)),
+    }
+    record.parent.mkdir(exist_ok=True)
+    write_text(record, json.dumps(about, indent=2) + "\n")
+    return Made(path, again=True)
+
+
+def _read(record: Path) -> dict[str, object]:
+    try:
+        known = json.loads(record.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return known if isinstance(known, dict) and isinstance(known.get("files"), dict) else {}
+
+
+def _contents(name: str, directory: Path) -> dict[str, str]:
+    """Digests of the files whose names begin with `name` (and no further digit)."""
+    own = re.compile(rf"{re.escape(name)}(?!\d)")
+    return {
+        path.name: hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(directory.glob(f"{name}*"))
+        if path.is_file() and own.match(path.name)
+    }
+
+
+def _fingerprint(inputs: tuple[str, ...]) -> str:
+    digest = hashlib.sha256(_program_fingerprint().encode())
+    for path in inputs:
+        digest.update(path.encode())
+        digest.update(Path(path).read_bytes())
+    return digest.hexdigest()
+
+
+@cache
+def _program_fingerprint() -> str:
+    digest = hashlib.sha256(program_version().encode())
+    for package in _PACKAGES:
+        digest.update(f"{package} {version(package)}".encode())
+    for folder in _FOLDERS:
+        for path in _sources(folder):
+            digest.update(path.relative_to(folder.parent).as_posix().encode())
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _sources(folder: Path) -> Iterator[Path]:
+    return (path for path in sorted(folder.rglob("*")) if path.suffix in _SUFFIXES)
