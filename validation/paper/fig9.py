@@ -26,6 +26,8 @@ from validation.drawing.style import BLACK, PAGE_WIDTH, STRESS_MAP, new_figure, 
 from validation.sweeps.study import STUDIES, StudyRun, study_runs
 
 COMPOUND = "rubber.compound"
+#: Rows of panels above the contours.
+PANEL_ROWS = 3
 
 
 def make(directory: Path) -> Path:
@@ -89,10 +91,10 @@ def contour(state: BlockState) -> FloatArray:
 def draw(states: dict[str, BlockState], notes: dict[str, str] | None = None) -> Figure:
     """Draw a panel per compound on one scale, and all contours over each other."""
     figure = new_figure(PAGE_WIDTH, 205.0)
-    grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 1.0, 1.0, 1.75])
+    grid = figure.add_gridspec(PANEL_ROWS + 1, 2, height_ratios=[1.0] * PANEL_ROWS + [1.75])
     window, norm = _common_window(states), _common_scale(states)
     panels = []
-    for (name, state), place in zip(states.items(), list(grid)[:6], strict=False):
+    for (name, state), place in zip(states.items(), list(grid)[: 2 * PANEL_ROWS], strict=False):
         axes = figure.add_subplot(place)
         note = (notes or {}).get(name, "")
         field = _draw_compound(axes, name, state, window, norm, note)
@@ -100,7 +102,7 @@ def draw(states: dict[str, BlockState], notes: dict[str, str] | None = None) -> 
     figure.colorbar(
         field, ax=panels, label=r"$\sigma_y$ [N/mm²]", extend="both", aspect=40, pad=0.01
     )
-    _draw_contours(figure.add_subplot(grid[3, :]), states, window)
+    _draw_contours(figure.add_subplot(grid[PANEL_ROWS, :]), states, window)
     return figure
 
 
@@ -119,6 +121,9 @@ def _draw_compound(
         fontsize=7.5,
     )
     axes.tick_params(labelsize=6.5)
+    place = axes.get_subplotspec()
+    axes.set_ylabel("$y$ [mm]" if place.is_first_col() else "", fontsize=6.5)
+    axes.set_xlabel("$x$ [mm]" if place.rowspan.start == PANEL_ROWS - 1 else "", fontsize=6.5)
     return field
 
 
