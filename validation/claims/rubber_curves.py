@@ -47,3 +47,16 @@ def secant_shear_modulus(model: Hyperelastic, shear: float) -> float:
     invariant = 3.0 + shear**2
     slopes = model.invariant_slopes(invariant, invariant)
     return float(2.0 * (slopes[0] + slopes[1]))
+
+
+def stiffer_ranges(
+    one: Hyperelastic, other: Hyperelastic, largest_shear: float = 2.0
+) -> list[tuple[float, float]]:
+    """Ranges of the amount of shear in which one model has the higher secant shear modulus [-]."""
+    shears = np.linspace(0.0, largest_shear, 401)[1:]
+    moduli = [[secant_shear_modulus(model, x) for x in shears] for model in (one, other)]
+    # Beyond a locking stretch there is no modulus: nothing is compared.
+    higher = np.array(moduli[0]) > np.array(moduli[1])
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], higher, [False]]).astype(int)))
+    ends = [(shears[a], shears[b - 1]) for a, b in edges.reshape(-1, 2)]
+    return [(0.0 if low == shears[0] else float(low), float(high)) for low, high in ends]

@@ -12,9 +12,10 @@ from validation.claims.claim import Claim, Finding, claim, unchecked
 from validation.claims.evidence import Evidence
 from validation.claims.paper_numbers import MEASURED_TO_K
 from validation.claims.shape import (
-    compression_at,
     detached_length,
+    extreme_place,
     interior_pressure,
+    interior_traction,
     rolled_length,
     stress_extremes,
 )
@@ -83,6 +84,26 @@ def pressure_concentration(evidence: Evidence) -> Finding:
         explanation=""
         if highest > behind
         else "The highest contact pressure is found behind the leading fifth of the bottom.",
+    )
+
+
+@claim(
+    section="4.2",
+    says="This pressure makes the block tend to stick at its leading edge.",
+    computed="friction traction mu p at the highest contact pressure, and highest traction of the "
+    "bottom behind its leading fifth",
+)
+def edge_is_held_back(evidence: Evidence) -> Finding:
+    result = evidence.introductory
+    law, sliding = result.case.friction.plain_law(), abs(result.case.loading.velocity_mm_per_s)
+    p = float(result.history["max_contact_pressure_N_per_mm2"].iloc[-1])
+    edge, behind = float(law.coefficient(p, sliding)) * p, interior_traction(result)
+    return Finding(
+        ours=f"{edge:.2f} N/mm² against {behind:.2f} N/mm²",
+        values={"edge_N_per_mm2": edge, "behind_N_per_mm2": behind},
+        criterion="the edge is held back more than the rest: the higher traction",
+        holds=edge > behind,
+        explanation="" if edge > behind else "The traction behind the leading fifth is higher.",
     )
 
 
@@ -162,7 +183,7 @@ def temperature_peak_at_edge(evidence: Evidence) -> Finding:
 )
 def stress_peak_at_edge(evidence: Evidence) -> Finding:
     result = evidence.introductory
-    stress, (along, up) = stress_extremes(result)[0], compression_at(result)
+    stress, (along, up) = stress_extremes(result)[0], extreme_place(result, 0)
     holds = along > 0.8 and up < THIN and -stress > _pressure(result)
     return Finding(
         ours=f"{stress:.2f} N/mm² at {100 * along:.0f} % of the length, {100 * up:.1f} % of the "
@@ -283,12 +304,8 @@ def half_space_depth(result: Result, share: float = 0.1) -> float:
     The rise is proportional to ierfc(z/(2 sqrt(alpha t))) (Carslaw and Jaeger, Conduction of Heat
     in Solids, 1959, section 2.9), with ierfc(x) = exp(-x^2)/sqrt(pi) - x erfc(x).
     """
-    thermal = result.case.rubber
-    diffusivity = (
-        thermal.conductivity_W_per_mK
-        / (thermal.density_kg_per_m3 * thermal.specific_heat_kJ_per_kgK * 1e3)
-        * 1e6
-    )
+    thermal = result.case.rubber.thermal
+    diffusivity = thermal.conductivity / (thermal.density * thermal.specific_heat)
     sliding = result.case.loading
     time = sliding.distance_mm / abs(sliding.velocity_mm_per_s)
     at = brentq(lambda x: np.exp(-(x**2)) - np.sqrt(np.pi) * x * erfc(x) - share, 0.0, 5.0)
@@ -328,6 +345,7 @@ def _why_the_edge_is_cool(result: Result) -> str:
 CLAIMS: tuple[Claim, ...] = (
     mean_contact_pressure,
     pressure_concentration,
+    edge_is_held_back,
     front_edge_curls,
     front_edge_detaches,
     deforms_as_photographed,

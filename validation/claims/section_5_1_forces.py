@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
+from fem.case_rubber import DEFAULT_COMPOUND
 from fem.results import Result
+from validation.claims import experiments
 from validation.claims.claim import Claim, Finding, claim
-from validation.claims.evidence import HUEMER, Evidence
+from validation.claims.evidence import HUEMER, Evidence, UnfinishedError
 from validation.claims.paper_numbers import SIMILAR, SIMILAR_WORDS, relative_range
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.paper.table4 import PAPER_N_PER_MM
+
+#: Changes that were run for the two sets at the ends of Table 4.
+_CHANGES = {**experiments.NOMINAL_CONTACT, **experiments.NO_SHIFT}
 
 
 def _force_claim(name: str) -> Claim:
@@ -37,7 +45,7 @@ def _compare(evidence: Evidence, name: str, printed: float) -> Finding:
         "calls similar",
         holds=holds,
         explanation="" if holds else _needed_coefficient(evidence, result, printed),
-        experiment="" if holds else _all_coefficients(evidence),
+        experiment="" if holds else f"{_force_tried(evidence, name)}{_all_coefficients(evidence)}",
     )
 
 
@@ -79,7 +87,7 @@ def order_of_forces(evidence: Evidence) -> Finding:
         if holds
         else f"Our forces differ by {100 * spread:.1f} %, the printed ones by {100 * theirs:.1f} %"
         + (": their order is that of small differences." if spread < 0.5 * theirs else "."),
-        experiment="" if holds else _what_the_law_allows(evidence),
+        experiment="" if holds else f"{_what_the_law_allows(evidence)} {_order_tried(evidence)}",
     )
 
 
@@ -158,6 +166,38 @@ def _what_the_law_allows(evidence: Evidence) -> str:
         else f"Mean contact pressures from {min(p):.3f} to {max(p):.3f} N/mm² change the "
         f"coefficient of the {HUEMER} law by {100 * abs(mu[0] / mu[1] - 1.0):.1f} %."
     )
+
+
+def _order_tried(evidence: Evidence) -> str:
+    """Force of the two sets at the ends of Table 4 when contact and friction are changed."""
+    low, high = _ends(PAPER_N_PER_MM)
+    parts = []
+    for words, overrides in _CHANGES.items():
+        softer, stiffer = (_changed_force(evidence, name, overrides) for name in (low, high))
+        order = "the printed order" if softer < stiffer else "not the printed order"
+        parts.append(f"{words}: {softer:.3f} and {stiffer:.3f} N/mm, {order}")
+    labels = f"{COMPOUND_LOOKS[low].label} and {COMPOUND_LOOKS[high].label}"
+    return f"{labels} with {'; '.join(parts)}."
+
+
+def _force_tried(evidence: Evidence, name: str) -> str:
+    """Force of a set at an end of Table 4 when contact and friction are changed."""
+    if name not in _ends(PAPER_N_PER_MM):
+        return ""
+    parts = []
+    for words, overrides in _CHANGES.items():
+        force = _changed_force(evidence, name, overrides)
+        parts.append(f"{words} {force:.2f} N/mm ({force / PAPER_N_PER_MM[name] - 1:+.1%})")
+    return f"With {', '.join(parts)}. "
+
+
+def _changed_force(evidence: Evidence, name: str, overrides: Mapping[str, Any]) -> float:
+    """Force with changed keys; NaN, of which no comparison is true, if the run did not end."""
+    of_the_set = {} if name == DEFAULT_COMPOUND else {"rubber.compound": name}
+    try:
+        return _force(evidence.changed({**of_the_set, **overrides}))
+    except UnfinishedError:
+        return float("nan")
 
 
 CLAIMS: tuple[Claim, ...] = (

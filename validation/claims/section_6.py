@@ -7,7 +7,13 @@ import numpy as np
 from validation.claims import experiments
 from validation.claims.claim import Claim, Finding, claim, unchecked
 from validation.claims.evidence import EXPONENTIAL, HUEMER, Evidence
-from validation.claims.paper_numbers import ACCEPTED_K, SIMILAR, SIMILAR_WORDS, relative_range
+from validation.claims.paper_numbers import (
+    ACCEPTED_K,
+    MEASURED_TO_K,
+    SIMILAR,
+    SIMILAR_WORDS,
+    relative_range,
+)
 from validation.claims.section_5_1 import LOAD, MOONEY_RIVLIN, VAN_DER_WAALS, YEOH
 from validation.claims.shape import deformation, largest_stretch
 from validation.claims.warmth import rise
@@ -15,6 +21,27 @@ from validation.drawing.compound_names import COMPOUND_LOOKS
 
 #: Largest strain of the paper's tests (section 2.2): dumbbells and both series of bars [-].
 DUMBBELL_STRAIN, BAR_STRAIN = 0.40, {1: 1.5, 2: 3.0}
+
+
+@claim(
+    section="6",
+    says="Frictional heating cannot be studied with mechanics and heat treated apart.",
+    computed="T_max of the introductory example with and without the effect of temperature on "
+    "friction, the only way in which heat acts on the mechanics",
+)
+def coupling_matters(evidence: Evidence) -> Finding:
+    (overrides,) = experiments.NO_SHIFT.values()
+    T = [float(r.summary["T_max_C"]) for r in (evidence.introductory, evidence.changed(overrides))]
+    change, limit = abs(T[1] - T[0]), MEASURED_TO_K[1]
+    return Finding(
+        ours=f"{T[0]:.2f} °C coupled, {T[1]:.2f} °C not",
+        values={"T_max_coupled_C": T[0], "T_max_uncoupled_C": T[1]},
+        criterion=f"a difference above {limit:g} K, which the paper could measure",
+        holds=change > limit,
+        explanation=""
+        if change > limit
+        else "Without the coupling, T_max would be the same as far as one can measure.",
+    )
 
 
 @claim(
@@ -125,6 +152,15 @@ def test_data_matter(evidence: Evidence) -> Finding:
 
 @claim(
     section="6",
+    says="Parameters must come from a test cycle in which the rubber has become stable.",
+    computed="-",
+)
+def stable_cycle_is_needed(evidence: Evidence) -> Finding:
+    return unchecked("The test cycles are drawn in Figs. 2 and 3 only, which are not in the text.")
+
+
+@claim(
+    section="6",
     says="The tests must cover the strains of the simulation.",
     computed="largest principal strain in each run, and the largest strain of the tests its "
     "parameters come from",
@@ -231,11 +267,13 @@ def _what_differs(beyond: dict[str, bool]) -> str:
 
 
 CLAIMS: tuple[Claim, ...] = (
+    coupling_matters,
     reproduces_the_tests,
     material_decides_deformation,
     lack_of_stiffening_is_the_reason,
     material_affects_stability,
     test_data_matter,
+    stable_cycle_is_needed,
     tests_must_cover_the_strain,
     law_leaves_heat,
     law_leaves_mechanics,

@@ -71,25 +71,42 @@ def detached_length(result: Result) -> float:
 
 def interior_pressure(result: Result) -> float:
     """Highest contact pressure of the bottom surface behind its leading fifth [N/mm^2]."""
-    surface = result.surface
-    X = surface["X_mm"].to_numpy()
+    return _highest_behind(result, "pressure_N_per_mm2")
+
+
+def interior_traction(result: Result) -> float:
+    """Highest friction traction of the bottom surface behind its leading fifth [N/mm^2]."""
+    return _highest_behind(result, "shear_N_per_mm2")
+
+
+def _highest_behind(result: Result, column: str) -> float:
+    X = result.surface["X_mm"].to_numpy()
     behind = (X.max() - X) > EDGE_ZONE * np.ptp(X)
-    return float(surface["pressure_N_per_mm2"].to_numpy()[behind].max())
+    return float(np.abs(result.surface[column].to_numpy()[behind]).max())
 
 
-def stress_extremes(result: Result) -> tuple[float, float]:
-    """Smallest and largest vertical stress of all elements [N/mm^2]."""
+def stress_extremes(result: Result, below: float = 1.0) -> tuple[float, float]:
+    """Smallest and largest vertical stress of all elements up to a share of the height [N/mm^2]."""
     sigma_y = last_state(result).snapshot.cauchy_stress[:, 1]
-    return float(sigma_y.min()), float(sigma_y.max())
+    chosen = sigma_y[_places(result)[:, 1] <= below]
+    return float(chosen.min()), float(chosen.max())
 
 
-def compression_at(result: Result) -> tuple[float, float]:
-    """Where the vertical compression is highest, shares of length (from the rear) and height."""
+def extreme_place(result: Result, which: int) -> tuple[float, float]:
+    """Where the smallest (0) or largest (1) vertical stress is, shares of length and height."""
+    sigma_y = last_state(result).snapshot.cauchy_stress[:, 1]
+    along, up = _places(result)[int(np.argmax(sigma_y) if which else np.argmin(sigma_y))]
+    return float(along), float(up)
+
+
+def _places(result: Result) -> FloatArray:
+    """Undeformed centres of the elements: share of the length, from the rear, and of the height."""
     state = last_state(result)
     corner, size = state.geometry.points.min(axis=0), np.ptp(state.geometry.points, axis=0)
-    place = state.geometry.points[state.geometry.cells].mean(axis=1)
-    share = (place[int(np.argmin(state.snapshot.cauchy_stress[:, 1]))] - corner) / size
-    return float(share[0] if state.direction > 0 else 1.0 - share[0]), float(share[1])
+    place = (state.geometry.points[state.geometry.cells].mean(axis=1) - corner) / size
+    if state.direction < 0:
+        place[:, 0] = 1.0 - place[:, 0]
+    return np.asarray(place)
 
 
 def largest_stretch(result: Result) -> float:

@@ -11,6 +11,8 @@ from validation.claims.shape import front_face_nodes
 from validation.drawing.block_drawing import cell_areas
 from validation.drawing.state_panels import last_state
 
+_PLACES = 401
+
 
 def start_temperature(result: Result) -> float:
     """Temperature before the sliding [deg C]."""
@@ -68,8 +70,43 @@ def cell_rises(result: Result) -> tuple[FloatArray, FloatArray]:
     return np.asarray(T - start_temperature(result)), area
 
 
-def profiles(results: list[Result], points: int = 401) -> FloatArray:
+def places(result: Result) -> FloatArray:
+    """Common places along the bottom surface, at which curves are compared [mm]."""
+    X = result.surface["X_mm"]
+    return np.linspace(float(X.min()), float(X.max()), _PLACES)
+
+
+def profiles(results: list[Result]) -> FloatArray:
     """Temperatures of bottom surfaces at common places, a row per result [deg C]."""
-    ends = results[0].surface["X_mm"]
-    X = np.linspace(float(ends.min()), float(ends.max()), points)
+    X = places(results[0])
     return np.array([np.interp(X, r.surface["X_mm"], r.surface["T_C"]) for r in results])
+
+
+def mean_difference(one: Result, other: Result) -> float:
+    """Difference of the temperatures of two bottom surfaces, mean of its size [K]."""
+    a, b = profiles([one, other])
+    return float(np.abs(a - b).mean())
+
+
+def difference_words(one: Result, other: Result) -> str:
+    """Where two bottom surfaces differ most, and by how much where both are in contact."""
+    X, (a, b) = places(one), profiles([one, other])
+    worst = int(np.argmax(np.abs(a - b)))
+    inside = np.all(
+        [
+            np.interp(X, r.surface["X_mm"], r.surface["in_contact"].to_numpy(dtype=float)) > 0.5
+            for r in (one, other)
+        ],
+        axis=0,
+    )
+    contact = " and ".join(_contact_words(run) for run in (one, other))
+    return (
+        f"The two differ most, by {abs(a[worst] - b[worst]):.1f} K, at X = {X[worst]:.1f} mm; "
+        f"where both are in contact, by {np.abs(a - b)[inside].mean():.2f} K in the mean. Contact "
+        f"covers {contact}."
+    )
+
+
+def _contact_words(result: Result) -> str:
+    X = result.surface["X_mm"][result.surface["in_contact"].astype(bool)]
+    return f"X = {X.min():.1f} to {X.max():.1f} mm"

@@ -11,6 +11,7 @@ import numpy as np
 
 from fem.results import Result
 from materials.compounds import COMPOUNDS
+from materials.hyperelastic import Yeoh
 from tests.made_up_result import made_up_result
 from validation.claims.evidence import LAWS, Evidence, Point
 from validation.claims.section_5_1 import LOAD, MOONEY_RIVLIN, VAN_DER_WAALS, YEOH
@@ -56,14 +57,21 @@ def paper_like_evidence() -> MadeUpEvidence:
         for p in (0.17, 0.25, 0.33)
         for v in (7.0, 50.0, 300.0)
     }
-    # The paper's slip: a van der Waals model that is softer although it deforms less.
-    softer = {
-        name: replace(COMPOUNDS[name], G=0.5 + 0.05 * series)
-        for series, name in VAN_DER_WAALS.items()
-    }
-    evidence.rubbers = {**COMPOUNDS, **softer}
-    evidence.with_changes = scaled(base, SIZE[MOONEY_RIVLIN] + 0.05)
+    hotter = with_summary(base, T_max_C=base.summary["T_max_C"] + 3.0)
+    evidence.with_changes = scaled(hotter, SIZE[MOONEY_RIVLIN] + 0.05)
+    evidence.rubbers = {**COMPOUNDS, **made_up_rubbers()}
     return evidence
+
+
+def made_up_rubbers() -> dict[str, Yeoh]:
+    """Sets of which series 2 turns up later, and the ones called van der Waals are softer."""
+    series = {1: {"C20": 0.0, "C30": 0.013}, 2: {"C20": -0.02, "C30": 0.0019}}
+    stiffness = {YEOH[1]: 0.350, YEOH[2]: 0.345, VAN_DER_WAALS[1]: 0.330, VAN_DER_WAALS[2]: 0.325}
+    return {
+        names[i]: Yeoh(C10=stiffness[names[i]], **series[i])
+        for names in (YEOH, VAN_DER_WAALS)
+        for i in (1, 2)
+    }
 
 
 def curled(result: Result) -> Result:

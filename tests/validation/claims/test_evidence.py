@@ -1,0 +1,121 @@
+"""Evidence gathers the runs of the studies and hands out only those that reached their end."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from fem.case import Case
+from fem.simulate import simulate
+from tests.made_up_result import made_up_result
+from tests.validation.made_up_run import made_up_run
+from validation.claims import experiments, section_4_2, section_5_1_forces
+from validation.claims.claim import UNCHECKED
+from validation.claims.evidence import LAWS, Evidence, Point, UnfinishedError, finished
+from validation.claims.ledger import judged
+from validation.paper.table4 import PAPER_N_PER_MM
+from validation.sweeps.study import STUDIES, read_study
+
+
+@pytest.fixture
+def evidence(tmp_path, monkeypatch) -> Evidence:
+    """Evidence whose studies are read from their files and answered with made-up runs."""
+
+    def runs(study, directory):
+        return [
+            replace(made_up_run(), study_case=case, result=made_up_result())
+            for case in read_study(study)
+        ]
+
+    monkeypatch.setattr("validation.claims.evidence.study_runs", runs)
+    return Evidence(tmp_path)
+
+
+def test_runs_are_found_by_what_tells_them_apart(evidence):
+    assert set(evidence.compounds) == set(PAPER_N_PER_MM)
+    assert list(evidence.velocities) == [7.0, 50.0, 300.0]
+    assert all(set(laws) == set(LAWS) for laws in evidence.velocities.values())
+    assert len(evidence.pressures) == 18
+    assert Point("yeoh-bars-series-1-load", 0.25, 50.0) in evidence.pressures
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        experiments.LOWER_BLOCK,
+        experiments.FREE_TOP,
+        experiments.NOMINAL_CONTACT,
+        experiments.NO_SHIFT,
+        {"a neo-Hookean rubber": experiments.NEO_HOOKE},
+    ],
+)
+def test_every_change_that_is_tried_is_in_the_study(evidence, changes):
+    for overrides in changes.values():
+        evidence.changed(overrides)
+
+
+def test_the_ends_of_table_4_are_in_the_study_with_every_change(evidence):
+    order = next(c for c in section_5_1_forces.CLAIMS if c.key == "order_of_forces")
+    assert "nan" not in judged(order, evidence).experiment
+
+
+def test_every_case_of_the_study_is_used():
+    cases = read_study(STUDIES / "claims.toml")
+    tried = [
+        *experiments.LOWER_BLOCK.values(),
+        *experiments.FREE_TOP.values(),
+        *experiments.NOMINAL_CONTACT.values(),
+        *experiments.NO_SHIFT.values(),
+        experiments.NEO_HOOKE,
+    ]
+    low = min(PAPER_N_PER_MM, key=PAPER_N_PER_MM.__getitem__)
+    of_low = [{"rubber.compound": low, **keys} for keys in tried]
+    assert [case.name for case in cases if case.overrides not in [*tried, *of_low]] == []
+
+
+def test_a_change_that_is_not_in_the_study_is_refused(evidence):
+    with pytest.raises(ValueError, match="has no case .*height"):
+        evidence.changed({"block.height_mm": 77.0})
+
+
+def test_a_run_that_stopped_is_not_handed_out():
+    result = made_up_result()
+    stopped = replace(result, summary=result.summary | {"status": "not converged", "reason": "x"})
+    with pytest.raises(UnfinishedError, match="the example, stopped at 120 mm: x"):
+        finished(stopped, "the example")
+    assert finished(result, "the example") is result
+
+
+def test_an_experiment_that_stopped_leaves_the_verdict(evidence):
+    class Stopped(Evidence):
+        def changed(self, overrides):
+            raise UnfinishedError("stopped")
+
+    stopped = Stopped(evidence.directory)
+    stopped.introductory = made_up_result()
+    text = experiments.tried(stopped, experiments.FREE_TOP, float, bool, "K")
+    assert "no result (stopped)" in text
+
+
+@pytest.mark.slow
+def test_a_real_run_is_judged_by_all_claims_that_need_only_it(tmp_path):
+    keys = {"block.mesh": "coarse", "loading.distance_mm": 12.0}
+    evidence = Evidence(tmp_path)
+    evidence.introductory = simulate(Case.from_toml(STUDIES / "introductory.toml", keys))
+    by_key = {claim.key: judged(claim, evidence) for claim in _of_the_example()}
+    assert by_key["front_edge_curls"].holds
+    assert by_key["pressure_concentration"].holds
+    assert by_key["heated_layer_is_thin"].holds
+    assert all(finding.verdict != UNCHECKED for finding in by_key.values())
+
+
+def _of_the_example():
+    """Claims on the introductory run alone, without those that may look for a reason."""
+    others = {
+        "mean_contact_pressure",
+        "temperature_peak_at_edge",
+        "diffusion_sets_the_depth",
+        "deforms_as_photographed",
+    }
+    return [claim for claim in section_4_2.CLAIMS if claim.key not in others]
