@@ -28,7 +28,8 @@ from scipy.spatial import cKDTree
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-#: Normals of a node and a segment must oppose each other by more than this cosine.
+#: Normals of a node and a segment must oppose each other by more than this cosine. At the tip of a
+#: fold the boundary turns right round, so that the normal of one of the node's own segments counts.
 OPPOSING = -0.2
 #: Nodes this close to a segment along the boundary (in segments) do not meet it: only its own.
 #: A crease starts between the next nodes. If those pass through each other, the loop grows from
@@ -285,12 +286,11 @@ def find_pairs(
     chain, n_n = x[boundary.nodes], x_n[boundary.nodes]
     now = segment_geometry(chain[place], chain[segment], chain[segment + 1], boundary.orientation)
     then = segment_geometry(n_n[place], n_n[segment], n_n[segment + 1], boundary.orientation)
-    normals = node_normals(chain, boundary.orientation)
     size = np.minimum(
         boundary.size[place], np.minimum(boundary.size[segment], boundary.size[segment + 1])
     )
     kept = (
-        (np.einsum("ki,ki->k", normals[place], now.n) < OPPOSING)
+        (_facing(chain, boundary.orientation, place, now.n) < OPPOSING)
         & (np.abs(now.xi - 0.5) <= 0.5 + OVERHANG)
         & (then.gap > -BEHIND * size)
         & (np.abs(now.gap) < reach)
@@ -331,12 +331,14 @@ def _near(boundary: Boundary, x: FloatArray, reach: float) -> tuple[IntArray, In
     return code // len(chain), code % len(chain)
 
 
-def node_normals(chain: FloatArray, orientation: int) -> FloatArray:
-    """Outward unit normals at the nodes of a chain (m, 2), mean of the adjoining segments."""
+def _facing(chain: FloatArray, orientation: int, place: IntArray, normal: FloatArray) -> FloatArray:
+    """Smallest cosine between `normal` (k, 2) and the normals of the segments at nodes (k,)."""
     e = np.diff(chain, axis=0)
     n = orientation * np.column_stack([e[:, 1], -e[:, 0]])
-    total = np.vstack([n[:1], n]) + np.vstack([n, n[-1:]])
-    return np.asarray(total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None])
+    n /= np.maximum(np.linalg.norm(n, axis=1), 1e-300)[:, None]
+    before, after = np.vstack([n[:1], n]), np.vstack([n, n[-1:]])
+    cosines = [np.einsum("ki,ki->k", side[place], normal) for side in (before, after)]
+    return np.minimum(*cosines)
 
 
 def followed(pairs: Pairs, found: Pairs, x: FloatArray, boundary: Boundary) -> Pairs:

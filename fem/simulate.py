@@ -32,9 +32,11 @@ from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
 from fem.run_summary import largest, last_values, sliding_means, steady_shares
 from fem.step_control import StepController, landed
 
-#: Contact modulus of the block with itself over its bulk modulus: a pressure of 45 % of the
-#: bulk modulus then presses a node in by 1 % of the local element size.
+#: Contact modulus of the block with itself over the contact's reference modulus: the bulk modulus,
+#: or 100 initial shear moduli for more compressible rubber, whose crease stiffens just as much. A
+#: pressure of 45 % of it presses a node in by 1 % of the local element size.
 SELF_CONTACT_STIFFNESS = 45.0
+SELF_CONTACT_BULK_RATIO = 100.0
 
 
 def coupled_model(case: Case) -> CoupledModel:
@@ -70,11 +72,12 @@ def self_contact_of(case: Case, mesh: BlockMesh) -> SelfContact | None:
     """Contact of the block with itself; the search reaches over the longest boundary edge."""
     if not case.solver.self_contact:
         return None
+    softest = SELF_CONTACT_BULK_RATIO * case.rubber.model().initial_shear_modulus
     edges = mesh.points[mesh.boundary_edges]
     longest = float(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).max())
     return SelfContact(
         mu=case.friction.rubber_on_rubber_mu,
-        stiffness=SELF_CONTACT_STIFFNESS * case.rubber.bulk_modulus,
+        stiffness=SELF_CONTACT_STIFFNESS * max(case.rubber.bulk_modulus, softest),
         reach=longest,
     )
 

@@ -19,7 +19,6 @@ from contact.self_contact import (
     find_pairs,
     followed,
     heat_sources,
-    node_normals,
     pair_forces,
     pair_penetration,
     pair_tangents,
@@ -302,10 +301,17 @@ def brute_force_search(points, reach):
 
 def brute_force_pairs(points, reach, orientation):
     """Pairs of `find_pairs` at rest with no penetration: the nearest segment of each node."""
-    normals, best = node_normals(points, orientation), {}
+    best = {}
     for s, a in sorted(brute_force_search(points, reach)):
         one = segment_geometry(points[[s]], points[[a]], points[[a + 1]], orientation)
-        if normals[s] @ one.n[0] >= OPPOSING or abs(one.xi[0] - 0.5) > 0.5 + OVERHANG:
+        own = [i for i in (s - 1, s) if 0 <= i < len(points) - 1]
+        normals = [
+            segment_geometry(points[[i]], points[[i]], points[[i + 1]], orientation).n[0]
+            for i in own
+        ]
+        if min(n @ one.n[0] for n in normals) >= OPPOSING:
+            continue
+        if abs(one.xi[0] - 0.5) > 0.5 + OVERHANG:
             continue
         if 0.0 < one.gap[0] < min(best.get(s, (reach,))[0], reach):
             best[s] = (one.gap[0], a)
@@ -324,12 +330,16 @@ def test_boundary_lengths_add_up_to_the_length_of_the_chain():
     assert boundary_of(points).length.sum() == pytest.approx(total, rel=1e-14)
 
 
-def test_node_normals_point_out_of_the_material(orientation):
-    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    square = square if orientation == 1 else square[::-1]
-    normals = node_normals(square, orientation)
-    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0)
-    assert np.all(np.einsum("ki,ki->k", normals, square - 0.5) > 0.0)
+def test_node_at_the_tip_of_a_fold_meets_the_face_beside_it():
+    """The mean normal of the tip points along the fold, not against the face."""
+    wall = [[0.0, -0.5], [0.0, 0.5], [0.0, 1.5]]
+    fold = [[0.02, 1.5], [0.02, 1.0], [0.015, 0.0], [0.06, 1.0]]
+    points = np.array(wall + fold)
+    tip = len(wall) + 2
+    assert (tip, 0) in couples(pairs_of(points, reach=0.6, orientation=1))
+    assert (tip, 0) in couples(pairs_of(points[:-1], reach=0.6, orientation=1))
+    away = points * [-1.0, 1.0]
+    assert not any(s == tip for s, _ in couples(pairs_of(away, reach=0.6, orientation=1)))
 
 
 def test_search_agrees_with_brute_force():
