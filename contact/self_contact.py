@@ -289,13 +289,13 @@ def find_pairs(
     size = np.minimum(
         boundary.size[place], np.minimum(boundary.size[segment], boundary.size[segment + 1])
     )
-    kept = (
+    eligible = (
         (_facing(chain, boundary.orientation, place, now.n) < OPPOSING)
         & (np.abs(now.xi - 0.5) <= 0.5 + OVERHANG)
         & (then.gap > -BEHIND * size)
         & (np.abs(now.gap) < reach)
     )
-    kept = np.flatnonzero(kept)
+    kept = np.flatnonzero(eligible)
     kept = kept[np.lexsort((np.abs(now.gap[kept]), place[kept]))]
     nearest = np.zeros(kept.size, dtype=bool)
     nearest[np.unique(place[kept], return_index=True)[1]] = True

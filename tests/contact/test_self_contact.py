@@ -264,7 +264,7 @@ def slot(gap, count=41, spacing=0.1, shift=0.0):
     x = spacing * np.arange(count)
     lower = np.column_stack([x, np.full(count, -0.5 * gap)])
     upper = np.column_stack([x[::-1] + shift, np.full(count, 0.5 * gap)])
-    end = np.column_stack([np.full(2, x[-1] + 0.5), [-0.5, 0.5]])
+    end = np.column_stack([np.full(2, x[-1] + 0.08), [-0.5, 0.5]])
     return np.vstack([lower, end, upper])
 
 
