@@ -30,6 +30,9 @@ RESULTS = (
     "friction_coefficient",
     "mean_contact_pressure_N_per_mm2",
 )
+#: Axes span at least this, so that differences nobody could measure do not look large: the paper's
+#: bound of 2 K on the error of T_max, and a tenth of A_T.
+SPAN_K, SPAN_SHARE = 2.0, 0.1
 QUANTITIES = {"T_max_C": r"$T_{max}$ [°C]", "A_T_K_mm": "$A_T$ [K mm]"}
 
 
@@ -69,6 +72,7 @@ def draw(table: pd.DataFrame, measured: Measurements | None = None) -> Figure:
         for axes, velocity in zip(row, velocities, strict=True):
             _draw_points(axes, table[table["velocity_mm_per_s"] == velocity], quantity)
             draw_measured_points(axes, measured, velocity, quantity)
+            _widen(axes, SPAN_K if quantity == "T_max_C" else SPAN_SHARE * axes.get_ylim()[1])
             axes.grid(True)
         row[0].set_ylabel(label)
     for axes, velocity in zip(panels[0], velocities, strict=True):
@@ -78,6 +82,14 @@ def draw(table: pd.DataFrame, measured: Measurements | None = None) -> Figure:
     marks = [] if measured is None else [MEASURED_MARK]
     figure.legend(handles=[*_legend(table), *marks], loc="outside lower center", ncols=2)
     return figure
+
+
+def _widen(axes: Axes, span: float) -> None:
+    """Widen the vertical axis about its middle to at least a span."""
+    low, high = axes.get_ylim()
+    if high - low < span:
+        middle = 0.5 * (low + high)
+        axes.set_ylim(middle - 0.5 * span, middle + 0.5 * span)
 
 
 def _draw_points(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
