@@ -106,7 +106,7 @@ def robustness_part(path: Path) -> Part:
         title="Robustness",
         caption="All parameter sets, friction coefficients from 0.3 to 1.2 and both friction laws, "
         "pressures from 0.1 to 0.5 N/mm²: one set of solver settings, 40 mm of sliding.",
-        command="treadfem sweep validation/studies/robustness.toml",
+        command="make robustness",
         tables=_tables([path]),
     )
 
