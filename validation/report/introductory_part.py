@@ -55,18 +55,26 @@ class IntroductoryRun:
         return self.results[:HEADLINES]
 
 
-def find_introductory(directory: Path) -> IntroductoryRun | None:
-    """Look for the run beside a folder of figures (`make run`) and inside it."""
+def find_introductory(directory: Path, program: str) -> IntroductoryRun | None:
+    """Look for the run beside a folder of figures (`make run`) and inside it.
+
+    One that was computed by `program` is preferred, as figure 8 prefers it.
+    """
     case = introductory_case()
-    for folder in (directory.parent / "run", directory / "runs" / "introductory"):
-        summary = _summary_of(folder, case)
-        if summary is not None:
-            return IntroductoryRun(
-                results=tuple(_result(summary, key) for key in SHOWN),
-                status=": ".join(filter(None, [summary["status"], summary.get("reason")])),
-                program=str(summary.get("program_version", "unknown")),
-            )
-    return None
+    folders = (directory.parent / "run", directory / "runs" / "introductory")
+    found = [run for folder in folders if (run := _read(folder, case)) is not None]
+    return min(found, key=lambda run: run.program != program, default=None)
+
+
+def _read(folder: Path, case: Case) -> IntroductoryRun | None:
+    summary = _summary_of(folder, case)
+    if summary is None:
+        return None
+    return IntroductoryRun(
+        results=tuple(_result(summary, key) for key in SHOWN),
+        status=": ".join(filter(None, [summary["status"], summary.get("reason")])),
+        program=str(summary.get("program_version", "unknown")),
+    )
 
 
 def _summary_of(folder: Path, case: Case) -> dict[str, Any] | None:

@@ -71,7 +71,7 @@ class Page:
 def find_page(directory: Path, made_with: MadeWith) -> Page:
     """Collect what lies in a folder of figures."""
     return Page(
-        run=find_introductory(directory),
+        run=find_introductory(directory, made_with.program),
         claims=claims_part(directory),
         figures=figure_parts(directory),
         tables=table_parts(directory),

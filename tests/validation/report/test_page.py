@@ -209,6 +209,17 @@ def test_a_run_of_another_program_or_one_that_stopped_early_is_marked(folder):
     assert "did not get to its end (not converged: too steep)" in text
 
 
+def test_of_two_runs_the_one_of_the_present_program_is_shown(folder):
+    result = made_up_result()
+    result.summary.update(T_max_C=47.125, program_version="0.9")
+    result.write(folder.parent / "run")
+    result.summary.update(T_max_C=46.125, program_version=MADE_WITH.program)
+    result.write(folder / "runs" / "introductory")
+    text = seen(html_of(folder))
+    assert "46.12 °C" in text
+    assert "another program" not in text
+
+
 def test_a_run_of_another_case_is_not_shown_as_the_introductory_one(folder):
     made_up_result(velocity_mm_per_s=50.0).write(folder.parent / "run")
     assert find_page(folder, MADE_WITH).run is None
