@@ -11,7 +11,7 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
@@ -25,6 +25,7 @@ help:
 	@echo "make claims     the paper's statements against the simulation, one by one"
 	@echo "make sensitivity  what the paper leaves open, one parameter at a time"
 	@echo "make report     all of that in one HTML page, $(RESULTS)/report.html"
+	@echo "make robustness  108 cases from easy to extreme; rewrites validation/robustness.csv"
 	@echo "make clean      remove results and caches (make distclean: .venv too)"
 
 $(READY): setup.cfg pyproject.toml constraints.txt
@@ -89,6 +90,10 @@ sensitivity: $(READY)
 
 report: figures claims sensitivity
 	$(BIN)/treadfem report --figures $(RESULTS)/figures -o $(RESULTS)/report.html
+
+robustness: $(READY)
+	$(BIN)/treadfem sweep validation/studies/robustness.toml -o $(RESULTS)/robustness --resume
+	$(BIN)/python -m validation.sweeps.robustness $(RESULTS)/robustness/summary.csv
 
 clean:
 	rm -rf $(RESULTS) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks

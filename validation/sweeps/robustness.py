@@ -1,0 +1,62 @@
+"""The committed table of the robustness study (``make robustness`` repeats the study).
+
+``python -m validation.sweeps.robustness SUMMARY.csv`` takes from the summary of its sweep the
+columns that tell how each case went, four digits each, and writes ``validation/robustness.csv``.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pandas as pd
+
+from fem.atomic_files import write_text
+
+TABLE = Path(__file__).parents[1] / "robustness.csv"
+#: What was varied, under shorter names.
+VARIED = {
+    "rubber.compound": "compound",
+    "loading.mean_pressure_N_per_mm2": "mean_pressure_N_per_mm2",
+    "friction.law": "law",
+    "friction.mu": "mu",
+}
+#: How it went. Each share and error is explained in the README, under "What a run writes".
+FOUND = (
+    "status",
+    "reason",
+    "T_max_C",
+    "friction_coefficient",
+    "contact_length_mm",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "energy_error",
+    "heat_error",
+    "regularisation_share",
+    "storage_share",
+    "regularisation_share_with_onset",
+    "friction_lag_error",
+    "largest_self_penetration",
+    "min_J",
+    "program_version",
+)
+
+
+def robustness_table(summary: pd.DataFrame) -> pd.DataFrame:
+    """The columns of the committed table, of a sweep's summary."""
+    table = summary.rename(columns=VARIED)[[*VARIED.values(), *FOUND]].copy()
+    for column in table.select_dtypes("float"):
+        table[column] = [float(f"{value:.4g}") for value in table[column]]
+    return table
+
+
+def main(path: str) -> None:
+    """Write the committed table anew."""
+    table = robustness_table(pd.read_csv(path))
+    write_text(TABLE, table.to_csv(index=False, lineterminator="\n"))
+    print(f"{TABLE}: {len(table)} cases, {(table['status'] == 'ok').sum()} ok")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
