@@ -56,7 +56,9 @@ PARAMETERS = {
         label="top pressed by",
         group=PHYSICS,
         why="the paper presses uniformly and then moves the block, and does not say whether its "
-        "top may tilt; a rigid platen does not let it",
+        "top may tilt; a rigid platen does not let it. Free to tilt, the block tips over and "
+        "slides on its leading edge at several times the paper's contact pressure, so that the "
+        "paper can only mean something like the platen",
     ),
     "friction.T_ref_C": Parameter(
         label="reference temperature of friction",

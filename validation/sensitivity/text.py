@@ -19,6 +19,9 @@ _COLUMNS = {
     "friction_force_difference_percent": "F_T [%]",
     "contact_pressure_difference_percent": "pressure [%]",
 }
+_SENTENCES = {PHYSICS: "Of what the paper leaves open", NUMERICS: "Of the numerics"}
+#: How many parameters of each group the first paragraph names.
+_NAMED = 3
 _WIDTH = 100
 
 
@@ -44,15 +47,19 @@ def _base_words(base: pd.Series) -> str:
 
 
 def _strongest(rows: pd.DataFrame) -> str:
-    lines = []
-    for group, words in ((PHYSICS, "Of what the paper leaves open"), (NUMERICS, "Of the numerics")):
-        size = rows["T_max_difference_K"].abs().where(rows["group"] == group)
-        if size.notna().any():
-            row = rows.iloc[int(size.argmax())]
-            lines.append(
-                f"{words}, {_change(row)} moves T_max most: {signed(row['T_max_difference_K'])} K."
-            )
-    return " ".join(lines)
+    """Name the parameters that move T_max most, each with its strongest change."""
+    sentences = []
+    for group, words in _SENTENCES.items():
+        own = rows[(rows["group"] == group) & rows["T_max_difference_K"].notna()]
+        order = own["T_max_difference_K"].abs().sort_values(ascending=False, kind="stable").index
+        strongest = own.loc[order].drop_duplicates("parameter").head(_NAMED)
+        named = [
+            f"{_change(row)} ({signed(row['T_max_difference_K'])} K)"
+            for _, row in strongest.iterrows()
+        ]
+        if named:
+            sentences.append(f"{words}, T_max is moved most by {'; '.join(named)}.")
+    return " ".join(sentences)
 
 
 def _changes(rows: pd.DataFrame) -> str:

@@ -63,6 +63,8 @@ def draw(table: pd.DataFrame) -> Figure:
     base = table.iloc[0]
     figure.suptitle(_heading(base), fontsize=8.5, fontweight="bold", x=0.01, ha="left")
     note = f"grey band: ±{MEASURED_TO_K:g} K, to which the paper's temperatures were measured"
+    if any(_is_cut(table[column]) for column in PANELS):
+        note = f"arrow: the bar is longer than shown; {note}"
     figure.supxlabel(note, fontsize=7.0, color=GREY, x=0.99, ha="right")
     return figure
 
@@ -147,6 +149,11 @@ def limit(values: np.ndarray) -> float:
     if len(sizes) > 1 and sizes[-1] > OUTLIER * sizes[-2]:
         return float(1.25 * sizes[-2]) or float(sizes[-1])
     return float(sizes[-1])
+
+
+def _is_cut(values: pd.Series) -> bool:
+    known = values.dropna().to_numpy(dtype=float)
+    return bool(len(known)) and limit(known) < np.abs(known).max()
 
 
 def _say_where_it_stopped(axes: Axes, place: int, reached_mm: float) -> None:

@@ -121,6 +121,7 @@ def test_physics_comes_first_then_the_strongest_and_the_values_of_a_parameter_st
 def test_every_run_is_a_bar_with_its_value_in_every_panel_and_nothing_is_cut_off(table):
     figure = draw(table)
     assert_nothing_overlaps(figure)
+    assert "arrow" not in figure.get_supxlabel()
     assert len(figure.axes) == len(PANELS)
     stopped = 1
     for axes, column in zip(figure.axes, PANELS, strict=True):
@@ -145,7 +146,9 @@ def test_values_at_the_bars_stay_inside_their_panel(table):
 
 def test_a_bar_far_longer_than_all_others_is_cut_but_keeps_its_value():
     values = {"mesh_fine": {"T_max_C": 46.0}, "height_7.0": {"T_max_C": 20.0}}
-    axes = draw(sensitivity_table(made_up_study(values))).axes[0]
+    figure = draw(sensitivity_table(made_up_study(values)))
+    axes = figure.axes[0]
+    assert figure.get_supxlabel().startswith("arrow: the bar is longer than shown")
     widths = [bar.get_width() for bar in axes.patches if bar.get_height() < 1.0]
     assert min(widths) == pytest.approx(-2.5)
     assert "−28.0" in [text.get_text() for text in axes.texts]
@@ -169,8 +172,11 @@ def test_a_change_is_shown_with_its_sign(value, shown):
 def test_the_text_says_what_matters_most_what_stopped_and_why_these_ranges(table):
     text = sensitivity_text(table)
     flat = " ".join(text.split())
-    assert "block height: 8 to 10 mm moves T_max most: −3.00 K" in flat
-    assert "mesh: default to fine moves T_max most: −0.10 K" in flat
+    assert (
+        "T_max is moved most by block height: 8 to 10 mm (−3.00 K); "
+        "bulk over shear modulus: 100 to 20 (+2.00 K); "
+    ) in flat
+    assert "Of the numerics, T_max is moved most by mesh: default to fine (−0.10 K); " in flat
     assert "top pressed by: platen to pressure: not converged at 120 mm" in flat
     assert STOPPED["reason"] in flat
     assert all(key in text for key in PARAMETERS)
