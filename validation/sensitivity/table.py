@@ -17,7 +17,8 @@ RESULTS = (
     "contact_length_mm",
     "mean_contact_pressure_N_per_mm2",
 )
-#: Column of a difference to the column it is of; temperatures in K, the rest in per cent.
+#: Column of a difference to the column it is of; temperatures in K, the rest in per cent, rounded
+#: to four digits behind the point.
 DIFFERENCES = {
     "T_max_difference_K": "T_max_C",
     "A_T_difference_percent": "A_T_K_mm",
@@ -58,7 +59,8 @@ def sensitivity_table(runs: list[StudyRun]) -> pd.DataFrame:
     for column, of in DIFFERENCES.items():
         values = table[of].to_numpy(dtype=float)
         scale = 1.0 if column.endswith("_K") else 100.0 / values[0]
-        table[column] = np.where(comparable, (values - values[0]) * scale, np.nan)
+        change = np.round((values - values[0]) * scale, 4)
+        table[column] = np.where(comparable, change, np.nan)
     return table
 
 
