@@ -23,9 +23,9 @@ PNG = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNkYAAAAAYAAjCB0C8AAAAASUVORK5CYII="
 )
 CLAIMS = (
-    "number,section,claim,computed,ours,criterion,verdict,explanation,experiment\n"
-    '1,4.2,"<script>alert(1)</script> & curls, up",yes,48.070353,T > 40,holds,,no\n'
-    "2,4.3,lowest peak,yes,3,lowest,differs,the block is lower,no\n"
+    "number,section,claim,computed,ours,values,criterion,verdict,explanation,experiment\n"
+    '1,4.2,"<script>alert(1)</script> & curls, up",yes,48.070353,raw_K=48.1,T > 40,holds,,no\n'
+    "2,4.3,lowest peak,yes,3,,lowest,differs,the block is lower,no\n"
 )
 MADE_WITH = MadeWith(
     date="2026-01-31 12:00 UTC+0000",
@@ -165,6 +165,7 @@ def test_claims_stand_with_their_verdicts_and_are_counted(folder):
     assert "differs: 1" in text
     assert "the block is lower" in text
     assert "48.07" in text
+    assert "raw_K" not in text
 
 
 def test_verdicts_have_a_colour_by_what_they_say():
