@@ -21,6 +21,8 @@ from validation.sweeps.sweep import sweep
 
 pytest.importorskip("distributed", reason="dask.distributed is not installed (extra sweep)")
 
+#: Cases of half a second, so that what a sweep adds to each would show; and 60 of them, so that the
+#: last one, which one worker runs alone, is a small part.
 CASE = """
 [block]
 mesh = {cells_x = 24, cells_y = 8, smallest_x_mm = 0.4, smallest_y_mm = 0.2}
@@ -34,7 +36,8 @@ figures = false
 STUDY = """
 base = "case.toml"
 [grid]
-"loading.mean_pressure_N_per_mm2" = [0.2, 0.21, 0.22, 0.23, 0.24, 0.25, 0.26, 0.27]
+"loading.mean_pressure_N_per_mm2" = [0.2, 0.21, 0.22, 0.23, 0.24, 0.25, 0.26, 0.27, 0.28, 0.29]
+"loading.velocity_mm_per_s" = [50.0, 100.0, 300.0]
 "friction.law" = ["huemer", "exponential"]
 """
 WORKERS = 2
