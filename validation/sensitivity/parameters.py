@@ -27,7 +27,7 @@ class Parameter:
     unit : str
         Unit of its values; empty where they are words or pure numbers.
     group : str
-        `PHYSICS`: the paper leaves it open. `NUMERICS`: the results should not depend on it.
+        `PHYSICS`: the paper leaves it open, or what it does is not obvious. `NUMERICS`: the results should not depend on it.
     why : str
         Where the range comes from.
     """
@@ -107,8 +107,8 @@ PARAMETERS = {
     "solver.self_contact": Parameter(
         label="contact of the block with itself",
         group=PHYSICS,
-        why="the paper does not mention it; without it the folded front edge may pass through the "
-        "block",
+        why="the paper has it, with a coefficient of 1.0; without it the folded front edge passes "
+        "through the block",
     ),
     "block.mesh": Parameter(label="mesh", group=NUMERICS, why="the two other named meshes"),
     "solver.steps_scale": Parameter(
