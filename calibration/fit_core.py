@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize, stats
 
+from calibration.parameter_file import write_parameter_file
+
 Array = NDArray[np.float64]
 Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 
@@ -238,8 +240,6 @@ class FitResult:
 
     def to_toml(self, path: str | Path) -> Path:
         """Write the parameter file that a case file refers to (``parameters = "..."``)."""
-        from calibration.parameter_file import write_parameter_file
-
         return write_parameter_file(self, path)
 
     @property

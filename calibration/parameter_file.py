@@ -8,33 +8,57 @@ are.
 
 import json
 import math
-import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from calibration.stability import Stability
-
-if TYPE_CHECKING:
-    from calibration.fit_core import FitResult
+from fem.atomic_files import write_text
 
 
-def write_parameter_file(result: "FitResult", path: str | Path) -> Path:
+class Fit(Protocol):
+    """What a parameter file tells of a fit (see `calibration.fit_core.FitResult`)."""
+
+    @property
+    def section(self) -> Mapping[str, Any]: ...
+    @property
+    def metadata(self) -> Mapping[str, Any]: ...
+    @property
+    def names(self) -> tuple[str, ...]: ...
+    @property
+    def values(self) -> Mapping[str, float]: ...
+    @property
+    def stderr(self) -> Mapping[str, float]: ...
+    @property
+    def covariance(self) -> NDArray[np.float64]: ...
+    @property
+    def fixed(self) -> Collection[str]: ...
+    @property
+    def n_data(self) -> int: ...
+    @property
+    def rmse(self) -> float: ...
+    @property
+    def r2(self) -> float: ...
+    @property
+    def aic(self) -> float: ...
+    @property
+    def message(self) -> str: ...
+    @property
+    def warnings(self) -> Collection[str]: ...
+
+
+def write_parameter_file(result: Fit, path: str | Path) -> Path:
     """Write the parameters of a fit with their origin; the file appears whole or not at all."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        temporary.write_text(parameter_text(result), encoding="utf-8")
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    write_text(path, parameter_text(result))
     return path
 
 
-def parameter_text(result: "FitResult") -> str:
+def parameter_text(result: Fit) -> str:
     """Text of the parameter file of a fit."""
     lines = []
     for name, content in result.section.items():
@@ -51,7 +75,7 @@ def parameter_text(result: "FitResult") -> str:
     return "\n".join(lines)
 
 
-def _provenance(result: "FitResult") -> dict[str, Any]:
+def _provenance(result: Fit) -> dict[str, Any]:
     known = dict(result.metadata)
     stability = known.pop("stability", None)
     if isinstance(stability, Stability):
