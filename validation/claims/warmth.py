@@ -33,6 +33,20 @@ def front_edge_temperature(result: Result) -> float:
     return max(bottom, float(face.max()))
 
 
+def pressure_at_peak(result: Result) -> float:
+    """Contact pressure at the hottest interior point of the bottom [N/mm^2]."""
+    surface = result.surface
+    place = interior_peak(surface["X_mm"], surface["T_C"]).X_of_peak_mm
+    return float(np.interp(place, surface["X_mm"], surface["pressure_N_per_mm2"]))
+
+
+def middle_temperature(result: Result) -> float:
+    """Temperature in the middle of the bottom [deg C]."""
+    surface = result.surface
+    middle = 0.5 * (surface["X_mm"].iloc[0] + surface["X_mm"].iloc[-1])
+    return float(np.interp(middle, surface["X_mm"], surface["T_C"]))
+
+
 def column_below_peak(result: Result) -> tuple[FloatArray, FloatArray]:
     """Distance from the bottom [mm] and temperature rise [K] above the hottest interior point."""
     state = last_state(result)

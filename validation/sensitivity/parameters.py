@@ -27,7 +27,8 @@ class Parameter:
     unit : str
         Unit of its values; empty where they are words or pure numbers.
     group : str
-        `PHYSICS`: the paper leaves it open, or what it does is not obvious. `NUMERICS`: the results should not depend on it.
+        `PHYSICS`: the paper leaves it open, or what it does is not obvious. `NUMERICS`: the
+        results should not depend on it.
     why : str
         Where the range comes from.
     """

@@ -16,6 +16,7 @@ from tests.validation.claims.made_up_evidence import (
     SIZE,
     MadeUpEvidence,
     scaled,
+    with_hotter_face,
     with_snapshot,
     with_summary,
     with_surface,
@@ -164,9 +165,6 @@ BROKEN: dict[str, Change] = {
     "most_rubber_is_cold": _introductory(_warm_through),
     "constant_parameters_suffice": _introductory(_warm_through),
     # 5.1
-    "printed_pressure": _compounds(
-        lambda i, r: with_summary(r, mean_contact_pressure_N_per_mm2=0.3)
-    ),
     "stress_fields_alike": _compound(
         LOAD, lambda r: with_snapshot(r, cauchy_stress=-r.snapshots[-1].cauchy_stress)
     ),
@@ -174,17 +172,15 @@ BROKEN: dict[str, Change] = {
     "highest_tension_varies": _compounds(_same_stress),
     "compression_does_not_follow_stiffness": _compounds(_stress_follows),
     "tension_does_not_follow_stiffness": _compounds(_stress_follows),
-    "van_der_waals_deforms_less_1": _compound(VAN_DER_WAALS[1], lambda r: scaled(r, 2.0)),
-    "van_der_waals_deforms_less_2": _compound(VAN_DER_WAALS[2], lambda r: scaled(r, 2.0)),
+    "van_der_waals_deforms_less": _compound(VAN_DER_WAALS[2], lambda r: scaled(r, 2.0)),
     "van_der_waals_is_less_stiff": _rubber(VAN_DER_WAALS[1], NeoHooke(G=1.5)),
-    "series_2_deforms_more_yeoh": _compound(YEOH[2], lambda r: scaled(r, 0.5)),
-    "series_2_deforms_more_van_der_waals": _compound(VAN_DER_WAALS[2], lambda r: scaled(r, 0.5)),
+    "series_2_deforms_more": _compound(VAN_DER_WAALS[2], lambda r: scaled(r, 0.5)),
     "series_2_stiffens_later": _rubber(YEOH[2], Yeoh(C10=0.345, C20=0.1, C30=0.1)),
     "late_upturn_is_the_reason": _rubber(YEOH[2], Yeoh(C10=0.3, C20=0.01)),
     "material_leaves_temperature_curve": _compound(MOONEY_RIVLIN, _hotter),
     "curves_follow_deformation": _compounds(lambda i, r: with_summary(r, A_T_K_mm=i % 3)),
     "material_leaves_T_max": _compound(LOAD, lambda r: with_summary(r, T_max_C=40.0)),
-    "load_has_the_lowest_peak": _compound(YEOH[1], lambda r: with_summary(r, T_max_C=44.0)),
+    "load_has_the_lowest_peak": _compound(LOAD, lambda r: with_hotter_face(r, 100.0)),
     "mooney_rivlin_does_not_stiffen": _rubber(MOONEY_RIVLIN, COMPOUNDS[LOAD]),
     "mooney_rivlin_deforms_differently": _compound(MOONEY_RIVLIN, lambda r: scaled(r, 2.1)),
     **{

@@ -91,6 +91,8 @@ def of_compound(base: Result, name: str) -> Result:
     run = scaled(base, SIZE[name])
     stress = run.snapshots[-1].cauchy_stress * STRESS[name]
     run = with_snapshot(run, cauchy_stress=stress, stretch=1.0 + SIZE[name] * np.ones(len(stress)))
+    if name != "yeoh-bars-series-1-load":
+        run = with_hotter_face(run, 20.0)
     X = run.surface["X_mm"]
     run = with_surface(run, T_C=run.surface["T_C"] + 10.0 * SIZE[name] * (np.abs(X - 3.0) < 0.3))
     return with_summary(
@@ -134,6 +136,13 @@ def at(result: Result, velocity: float) -> Result:
 def scaled(result: Result, factor: float) -> Result:
     """The same result with its displacement multiplied."""
     return with_snapshot(result, displacement=factor * result.snapshots[-1].displacement)
+
+
+def with_hotter_face(result: Result, by: float) -> Result:
+    """The same result with its leading face hotter, from the road up to the platen."""
+    X = result.geometry.points[:, 0]
+    face = np.isclose(X, X.max())
+    return with_snapshot(result, temperature=result.snapshots[-1].temperature + by * face)
 
 
 def with_summary(result: Result, **values: Any) -> Result:
