@@ -2,7 +2,7 @@
 
 The folder is filled in the order of the README: what one command writes the next one reads. Cases
 are cut short so that each takes seconds; the runs behind claims, sensitivity and figure 11 are made
-up (the real ones take minutes; `make report` and the slow tests beside each module make them).
+up (the real ones take minutes; `make report` makes them).
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from validation.sweeps import study, sweep_case
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+EXAMPLES = (ROOT / "examples/README.md").read_text(encoding="utf-8")
 SHORT = {
     'mesh = "default"': "mesh = {cells_x = 20, cells_y = 8, "
     "smallest_x_mm = 0.5, smallest_y_mm = 0.25}",
@@ -110,19 +111,53 @@ def made_up_runs(monkeypatch):
     monkeypatch.setattr(study, "number_of_workers", lambda *_: 1)
 
 
-BEHIND_LONG_RUNS = {"claims", "sensitivity", "report"}
+#: Commands whose real runs take minutes, and why; here their simulations are made up.
+BEHIND_LONG_RUNS = {
+    "claims": "the runs of validation/studies/claims.toml and of figures 9 to 12",
+    "sensitivity": "the runs of validation/studies/sensitivity.toml",
+    "report": "shows the pictures of the introductory run",
+    "figure 11": "six runs over the whole distance",
+}
+#: Commands that another test runs as they stand: by what a line holds, the test and the reason.
+COVERED_BY = {
+    "treadfem calibrate": (
+        "tests/calibration/test_readme_examples.py::test_example_makes_a_parameter_file",
+        "each needs measurements of its own kind",
+    ),
+    "--scheduler": (
+        "tests/test_readme_commands.py::"
+        "test_scheduler_workers_and_sweep_of_the_readme_work_together",
+        "needs a scheduler and workers",
+    ),
+}
 
 
 def needs_long_runs(words: list[str]) -> bool:
-    return words[0] in BEHIND_LONG_RUNS or words[:2] == ["figure", "11"]
+    return words[0] in BEHIND_LONG_RUNS or " ".join(words[:2]) in BEHIND_LONG_RUNS
 
 
 def is_covered_elsewhere(line: str) -> bool:
-    """`calibrate` is run in tests/calibration, sweeps on a cluster below."""
-    return words_of(line)[0] == "calibrate" or "--scheduler" in line
+    return any(part in line for part in COVERED_BY)
 
 
-LINES = [line for line in dict.fromkeys(command_lines()) if not is_covered_elsewhere(line)]
+def example_lines() -> list[str]:
+    """Commands of examples/README.md for every example, cut short, on the README's sweep."""
+    commands = re.findall(r"`(treadfem [^`]*)`", EXAMPLES)
+    names = re.findall(r"^\| `(\w+)\.toml`", EXAMPLES, flags=re.MULTILINE)
+    short = " --set loading.distance_mm=1 --set block.mesh=coarse"
+    return [
+        line.replace("NAME", name).replace("RESULTS_DIR", "results/my_study")
+        for command in commands
+        for line in [command + short if "NAME" in command else command]
+        for name in (names if "NAME" in command else [""])
+    ]
+
+
+LINES = [
+    line
+    for line in dict.fromkeys([*command_lines(), *example_lines()])
+    if not is_covered_elsewhere(line)
+]
 
 
 @pytest.mark.parametrize("line", LINES)
@@ -131,6 +166,9 @@ def test_command_does_what_the_readme_says(line, desk, monkeypatch, capsys, requ
     words = words_of(line)
     if needs_long_runs(words):
         request.getfixturevalue("made_up_runs")
+    for promised in map(Path, outputs(words)):
+        if promised.is_file():
+            promised.unlink()  # an earlier command wrote it
     assert run_here(line) == 0, capsys.readouterr().err
     if line.endswith("> my_case.toml"):
         Case.from_toml("my_case.toml")
@@ -151,6 +189,19 @@ def outputs(words: list[str]) -> list[str]:
 def test_the_readme_has_every_command():
     known = set(treadfem._parser("calibrate")._subparsers._group_actions[0].choices)
     assert {words_of(line)[0] for line in command_lines()} == known
+
+
+def test_examples_are_all_listed_and_run():
+    files = {path.name for path in (ROOT / "examples").glob("*.toml")}
+    run = {Path(words_of(line)[1]).name for line in example_lines() if " run " in line}
+    assert run == files
+
+
+@pytest.mark.parametrize("part", COVERED_BY)
+def test_test_that_covers_a_command_exists_and_has_a_command_to_cover(part):
+    path, name = COVERED_BY[part][0].split("::")
+    assert f"\ndef {name}(" in (ROOT / path).read_text(encoding="utf-8")
+    assert any(part in line for line in command_lines())
 
 
 def test_every_calibrate_command_is_an_example_of_its_own_test():
