@@ -52,7 +52,10 @@ def test_a_written_result_has_all_files_with_the_required_columns_first(result, 
     assert header == ",".join(HISTORY)
     header = (tmp_path / "run" / "surface.csv").read_text().splitlines()[0]
     assert header == ",".join(SURFACE)
-    assert tuple(json.loads((tmp_path / "run" / "summary.json").read_text())) == SUMMARY
+    assert tuple(json.loads((tmp_path / "run" / "summary.json").read_text())) == (
+        *SUMMARY,
+        "program_version",
+    )
     one_row = pd.read_csv(tmp_path / "run" / "summary.csv")
     assert tuple(one_row.columns) == SUMMARY
     assert len(one_row) == 1
