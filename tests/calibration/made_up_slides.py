@@ -13,6 +13,16 @@ SHAPE = np.where(X < 4.0, 0.0, 1.2 * np.sin(np.pi * (X - 4.0) / 17.0)) + 3.0 * n
     -(((X - 19.3) / 0.3) ** 2)
 )
 CONTACT = 0.75
+#: A case file whose simulation takes a moment: a rigid block that slides 1 mm.
+RIGID = """
+[block]
+mesh = "coarse"
+rigid = true
+[loading]
+mean_pressure_N_per_mm2 = 0.3
+velocity_mm_per_s = 300.0
+distance_mm = 1.0
+"""
 
 
 class MadeUpStore:

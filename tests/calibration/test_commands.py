@@ -14,6 +14,7 @@ from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synt
 from contact import HuemerFriction
 from fem.simulate import simulate
 from materials import WLF
+from tests.calibration.made_up_slides import RIGID
 
 
 def run(words):
@@ -121,15 +122,6 @@ def test_conductance_is_found_and_c_of_eq_11_follows(tmp_path, capsys):
     assert {path.name for path in (tmp_path / "o").iterdir()} == names
 
 
-RIGID = """
-[block]
-mesh = "coarse"
-rigid = true
-[loading]
-mean_pressure_N_per_mm2 = 0.3
-velocity_mm_per_s = 300.0
-distance_mm = 1.0
-"""
 SLIDES = """mean_pressure_N_per_mm2,v_mm_per_s,T_max_C,sigma_K
 0.2,300,23.5,0.5
 0.3,300,23.6,0.5

@@ -16,17 +16,9 @@ from calibration.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction
 from contact import HuemerFriction
 from materials import WLF
+from tests.calibration.made_up_slides import RIGID
 
 ROOT = Path(__file__).parents[2]
-CASE = """
-[block]
-mesh = "coarse"
-rigid = true
-[loading]
-mean_pressure_N_per_mm2 = 0.3
-velocity_mm_per_s = 300.0
-distance_mm = 1.0
-"""
 
 
 def examples(readme):
@@ -91,7 +83,7 @@ def test_example_makes_a_parameter_file(words, tmp_path, monkeypatch):
     measurements(words).to_csv(words[1], index=False)
     Path("rig.toml").write_text("[rig]\nambient_C = 20.0\n")
     for name in ("my_case.toml", "block.toml"):
-        Path(name).write_text(CASE)
+        Path(name).write_text(RIGID)
     assert treadfem.main(["calibrate", *words, "--quiet"]) == 0
     folder = Path(words[words.index("-o") + 1])
     content = tomllib.loads((folder / "parameters.toml").read_text())
