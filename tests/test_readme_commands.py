@@ -113,9 +113,9 @@ def made_up_runs(monkeypatch):
 
 #: Commands whose real runs take minutes, and why; here their simulations are made up.
 BEHIND_LONG_RUNS = {
-    "claims": "the runs of validation/studies/claims.toml and of figures 9 to 12",
+    "claims": "the studies of the figures and of claims.toml",
     "sensitivity": "the runs of validation/studies/sensitivity.toml",
-    "report": "shows the pictures of the introductory run",
+    "report": "reads what the long runs of the others made",
     "figure 11": "six runs over the whole distance",
 }
 #: Commands that another test runs as they stand: by what a line holds, the test and the reason.
