@@ -52,12 +52,10 @@ def test_a_written_result_has_all_files_with_the_required_columns_first(result, 
     assert header == ",".join(HISTORY)
     header = (tmp_path / "run" / "surface.csv").read_text().splitlines()[0]
     assert header == ",".join(SURFACE)
-    assert tuple(json.loads((tmp_path / "run" / "summary.json").read_text())) == (
-        *SUMMARY,
-        "program_version",
-    )
+    columns = (*SUMMARY, "program_version")
+    assert tuple(json.loads((tmp_path / "run" / "summary.json").read_text())) == columns
     one_row = pd.read_csv(tmp_path / "run" / "summary.csv")
-    assert tuple(one_row.columns) == SUMMARY
+    assert tuple(one_row.columns) == columns
     assert len(one_row) == 1
 
 
