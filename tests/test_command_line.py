@@ -17,6 +17,7 @@ import treadfem
 from fem.case import Case
 from fem.case_reading import parse_override
 from tests.wrong_cases import LOADING, SET_SYNTAX, WRONG_CASES, WrongCase
+from validation.sweeps.study import StudyError
 
 ROOT = Path(__file__).parents[1]
 
@@ -313,7 +314,10 @@ def test_wrong_calibration_gives_one_line_and_writes_nothing(words, tmp_path, mo
 def test_help_lists_every_command(capsys):
     assert command("--help") == 0
     shown = capsys.readouterr().out
-    for name in ("run", "check", "template", "calibrate", "figure", "table"):
+    for name in (
+        *("run", "sweep", "compare", "check", "template", "calibrate", "figure", "table"),
+        *("claims", "sensitivity", "report", "export"),
+    ):
         assert re.search(rf"^    {name}\b", shown, flags=re.MULTILINE)
 
 
@@ -336,6 +340,47 @@ def test_figure_is_written(tmp_path, capsys):
     assert command("figure", "7", "-o", tmp_path / "out") == 0
     assert capsys.readouterr().out == f"{tmp_path / 'out' / 'fig7.png'}\n"
     assert (tmp_path / "out" / "fig7.png").exists()
+
+
+def test_figure_that_is_up_to_date_is_left_alone_unless_asked_for_again(tmp_path, capsys):
+    words = ("figure", "7", "-o", tmp_path)
+    assert command(*words) == 0
+    before = (tmp_path / "fig7.png").stat().st_mtime_ns
+    assert command(*words) == 0
+    assert "(up to date)" in capsys.readouterr().out.splitlines()[-1]
+    assert (tmp_path / "fig7.png").stat().st_mtime_ns == before
+    assert command(*words, "--again") == 0
+    assert (tmp_path / "fig7.png").stat().st_mtime_ns > before
+
+
+@pytest.mark.parametrize(
+    "words, part",
+    [
+        (("figure", "7", "-o", "taken"), "taken: -o"),
+        (("claims", "-o", "taken"), "taken: -o"),
+        (("sensitivity", "-o", "taken"), "taken: -o"),
+        (("report", "--figures", "nowhere"), "nowhere: --figures: found no such folder"),
+        (("report", "--figures", ".", "-o", "."), ".: -o: found a folder, expected an HTML file"),
+    ],
+    ids=" ".join,
+)
+def test_wrong_folder_gives_one_line_and_writes_nothing(words, part, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("taken").write_text("a file")
+    assert command(*words) == 2
+    error = capsys.readouterr().err
+    assert part in error
+    assert error.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["taken"]
+
+
+def test_run_that_fails_behind_a_figure_is_said_in_one_line(tmp_path, monkeypatch, capsys):
+    def fails(number, directory, measured=None):
+        raise StudyError("v_7: ValueError: no such thing")
+
+    monkeypatch.setattr("validation.paper.figures.make_figure", fails)
+    assert command("figure", "11", "-o", tmp_path) == 3
+    assert capsys.readouterr().err == "treadfem: fig11: v_7: ValueError: no such thing\n"
 
 
 def test_module_runs_as_a_program():
