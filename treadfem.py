@@ -540,7 +540,7 @@ def _made(
 ) -> bool:
     """Make something unless it is up to date, and say so; False if one of its runs failed."""
     from validation.paper.kept import kept
-    from validation.sweeps.study import StudyError
+    from validation.sweeps.study_runs import StudyError
 
     directory = Path(arguments.output)
     directory.mkdir(parents=True, exist_ok=True)

@@ -17,7 +17,7 @@ import treadfem
 from fem.case import Case
 from fem.case_reading import parse_override
 from tests.wrong_cases import LOADING, SET_SYNTAX, WRONG_CASES, WrongCase
-from validation.sweeps.study import StudyError
+from validation.sweeps.study_runs import StudyError
 
 ROOT = Path(__file__).parents[1]
 

@@ -13,7 +13,8 @@ from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Hyperelastic
 from validation.drawing.state_panels import reached
 from validation.paper.introductory import introductory_run
-from validation.sweeps.study import STUDIES, StudyRun, study_runs
+from validation.sweeps.study import STUDIES
+from validation.sweeps.study_runs import StudyRun, study_runs
 
 EXPONENTIAL, HUEMER = "exponential", "huemer"
 LAWS = (EXPONENTIAL, HUEMER)

@@ -11,7 +11,8 @@ from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.state_panels import reached
 from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
 from validation.paper.fig9 import COMPOUND
-from validation.sweeps.study import STUDIES, StudyRun, study_runs
+from validation.sweeps.study import STUDIES
+from validation.sweeps.study_runs import StudyRun, study_runs
 
 
 def make(directory: Path) -> Path:

@@ -15,7 +15,8 @@ from validation.measured.measured_points import (
 )
 from validation.measured.measurements import Measurements
 from validation.paper.fig10 import profile_table
-from validation.sweeps.study import STUDIES, StudyRun, study_runs
+from validation.sweeps.study import STUDIES
+from validation.sweeps.study_runs import StudyRun, study_runs
 
 VELOCITY, LAW = "loading.velocity_mm_per_s", "friction.law"
 LAW_LOOKS = {"exponential": (VERMILLION, "--"), "huemer": (BLUE, "-")}

@@ -14,7 +14,8 @@ from validation.drawing.style import BLACK, PAGE_WIDTH, new_figure, save, styled
 from validation.measured.measured_points import MEASURED_MARK, draw_measured_points
 from validation.measured.measurements import Measurements
 from validation.paper.fig11 import LAW_LABELS, LAW_LOOKS
-from validation.sweeps.study import STUDIES, StudyRun, study_runs
+from validation.sweeps.study import STUDIES
+from validation.sweeps.study_runs import StudyRun, study_runs
 
 #: Columns of the table and the case keys or summary keys they come from.
 KEYS = {

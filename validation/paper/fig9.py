@@ -23,7 +23,8 @@ from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.field_panels import BlockState, stress_scale, vertical_stress
 from validation.drawing.state_panels import last_state, reached
 from validation.drawing.style import BLACK, PAGE_WIDTH, STRESS_MAP, new_figure, save, styled
-from validation.sweeps.study import STUDIES, StudyRun, study_runs
+from validation.sweeps.study import STUDIES
+from validation.sweeps.study_runs import StudyRun, study_runs
 
 COMPOUND = "rubber.compound"
 #: Rows of panels above the contours.

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from fem.case import Case
 from fem.results import Result
-from validation.sweeps.study import STUDIES, holds, simulate_missing
+from validation.sweeps.study import STUDIES
+from validation.sweeps.study_runs import holds, simulate_missing
 
 
 def introductory_case() -> Case:

@@ -8,7 +8,8 @@ import pandas as pd
 
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.paper.fig9 import COMPOUND
-from validation.sweeps.study import STUDIES, StudyRun, study_runs
+from validation.sweeps.study import STUDIES
+from validation.sweeps.study_runs import StudyRun, study_runs
 
 #: The paper's Table 4 [kN]; its plane model has 1 m of depth, so the numbers are also N per mm.
 PAPER_N_PER_MM = {

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from validation.sensitivity.parameters import AND, PARAMETERS
-from validation.sweeps.study import StudyRun
+from validation.sweeps.study_runs import StudyRun
 
 RESULTS = (
     "T_max_C",

@@ -9,7 +9,8 @@ from validation.drawing.style import save
 from validation.sensitivity.table import sensitivity_table
 from validation.sensitivity.text import sensitivity_text
 from validation.sensitivity.tornado import draw
-from validation.sweeps.study import STUDIES, study_runs
+from validation.sweeps.study import STUDIES
+from validation.sweeps.study_runs import study_runs
 
 STUDY = STUDIES / "sensitivity.toml"
 

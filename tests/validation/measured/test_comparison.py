@@ -20,7 +20,7 @@ from validation.measured.comparison import compare, matching, simulated_runs, st
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
 from validation.measured.measurements import read_measurements
 from validation.paper import fig11, fig12
-from validation.sweeps.study import StudyRun
+from validation.sweeps.study_runs import StudyRun
 
 ROOT = Path(__file__).parents[3]
 YEOH, VDW = "yeoh-bars-series-1-load", "van-der-waals-bars-series-1"

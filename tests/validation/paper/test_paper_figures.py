@@ -16,7 +16,7 @@ from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.paper import fig2, fig3, fig4, fig6, fig9, fig10, fig11, fig12
 from validation.paper.figures import make_figure
 from validation.paper.stress_panels import chosen_cycle, set_table
-from validation.sweeps.study import StudyRun
+from validation.sweeps.study_runs import StudyRun
 
 
 @pytest.fixture(scope="module")

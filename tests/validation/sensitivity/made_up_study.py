@@ -8,7 +8,8 @@ from typing import Any
 
 from tests.made_up_result import made_up_result
 from validation.sensitivity.write import STUDY
-from validation.sweeps.study import StudyRun, read_study
+from validation.sweeps.study import read_study
+from validation.sweeps.study_runs import StudyRun
 
 BASE = {"T_max_C": 48.0, "A_T_K_mm": 400.0, "friction_force_N_per_mm": 4.5}
 

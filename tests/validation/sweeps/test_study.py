@@ -5,10 +5,8 @@ from __future__ import annotations
 import pytest
 
 from fem.case_errors import CaseError
-from tests.made_up_result import made_up_result
 from validation.paper.introductory import introductory_case
-from validation.sweeps import study, sweep_case
-from validation.sweeps.study import STUDIES, holds, read_study, study_runs, summary_table
+from validation.sweeps.study import STUDIES, read_study
 
 BASE = """
 [loading]
@@ -81,82 +79,6 @@ def test_a_wrong_study_is_refused_in_one_line(write_study, text, words):
     with pytest.raises(CaseError, match=words) as error:
         read_study(write_study(text))
     assert "\n" not in str(error.value)
-
-
-@pytest.fixture
-def simulated(monkeypatch):
-    """Velocities of the cases that were simulated, in this process; results are made up."""
-    velocities = []
-
-    def fake(case, checkpoint=None, resume=False):
-        velocities.append(case.loading.velocity_mm_per_s)
-        return made_up_result(velocity_mm_per_s=case.loading.velocity_mm_per_s)
-
-    monkeypatch.setattr(sweep_case, "simulate", fake)
-    monkeypatch.setattr(study, "number_of_workers", lambda *_: 1)
-    return velocities
-
-
-TWO = 'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0]'
-
-
-def test_finished_runs_are_read_and_changed_ones_simulated_again(write_study, tmp_path, simulated):
-    path = write_study(TWO)
-    for _ in range(2):
-        runs = study_runs(path, tmp_path / "out")
-    assert simulated == [7.0, 50.0]
-    assert [run["loading.velocity_mm_per_s"] for run in runs] == [7.0, 50.0]
-    table = summary_table(runs)
-    assert list(table.columns[:2]) == ["loading.velocity_mm_per_s", "status"]
-    case_file = tmp_path / "out" / "runs" / "velocity_mm_per_s_50.0" / "case.toml"
-    case_file.write_text(case_file.read_text().replace("height_mm = 8.0", "height_mm = 9.0"))
-    (case_file.parent / sweep_case.MARKER).unlink()
-    study_runs(path, tmp_path / "out")
-    assert simulated == [7.0, 50.0, 50.0]
-
-
-def test_runs_of_another_program_are_simulated_again(write_study, tmp_path, simulated, monkeypatch):
-    path = write_study(TWO)
-    study_runs(path, tmp_path / "out")
-    for module in (study, sweep_case):
-        monkeypatch.setattr(module, "program_version", lambda: "0.0.9+new")
-    study_runs(path, tmp_path / "out")
-    assert simulated == [7.0, 50.0] * 2
-
-
-def test_run_that_raises_an_error_is_said_and_the_finished_ones_are_kept(
-    write_study, tmp_path, simulated, monkeypatch
-):
-    def fails_at_50(case, **options):
-        if case.loading.velocity_mm_per_s == 50.0:
-            raise ValueError("no such thing")
-        return made_up_result(velocity_mm_per_s=case.loading.velocity_mm_per_s)
-
-    path = write_study(TWO)
-    monkeypatch.setattr(sweep_case, "simulate", fails_at_50)
-    with pytest.raises(study.StudyError, match=r"velocity_mm_per_s_50\.0: .*no such thing"):
-        study_runs(path, tmp_path / "out")
-    first, second = read_study(path)
-    assert holds(tmp_path / "out" / "runs" / first.name, first.case)
-    assert not holds(tmp_path / "out" / "runs" / second.name, second.case)
-
-
-def test_an_interrupted_run_is_not_taken_for_a_finished_one(tmp_path):
-    result = made_up_result()
-    result.summary["status"] = "interrupted"
-    result.write(tmp_path)
-    assert not holds(tmp_path, result.case)
-
-
-def test_a_run_of_a_version_with_other_keys_is_not_taken_for_this_case(tmp_path):
-    result = made_up_result()
-    result.write(tmp_path)
-    assert holds(tmp_path, result.case)
-    path = tmp_path / "case.toml"
-    path.write_text(path.read_text().replace("height_mm", "tallness_mm"))
-    assert not holds(tmp_path, result.case)
-    path.unlink()
-    assert not holds(tmp_path, result.case)
 
 
 @pytest.mark.parametrize("name, count", [("compounds", 6), ("velocities", 6), ("pressures", 36)])

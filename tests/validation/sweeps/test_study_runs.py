@@ -1,0 +1,106 @@
+"""Runs of a study: what is finished and of this program is read, the rest is simulated."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.made_up_result import made_up_result
+from validation.sweeps import study_runs as module
+from validation.sweeps import sweep_case
+from validation.sweeps.study import read_study
+from validation.sweeps.study_runs import StudyError, holds, study_runs, summary_table
+
+BASE = """
+[loading]
+mean_pressure_N_per_mm2 = 0.25
+velocity_mm_per_s = 300.0
+distance_mm = 120.0
+"""
+
+
+@pytest.fixture
+def write_study(tmp_path):
+    (tmp_path / "case.toml").write_text(BASE)
+
+    def write(text: str):
+        path = tmp_path / "study.toml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+@pytest.fixture
+def simulated(monkeypatch):
+    """Velocities of the cases that were simulated, in this process; results are made up."""
+    velocities = []
+
+    def fake(case, checkpoint=None, resume=False):
+        velocities.append(case.loading.velocity_mm_per_s)
+        return made_up_result(velocity_mm_per_s=case.loading.velocity_mm_per_s)
+
+    monkeypatch.setattr(sweep_case, "simulate", fake)
+    monkeypatch.setattr(module, "number_of_workers", lambda *_: 1)
+    return velocities
+
+
+TWO = 'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0]'
+
+
+def test_finished_runs_are_read_and_changed_ones_simulated_again(write_study, tmp_path, simulated):
+    path = write_study(TWO)
+    for _ in range(2):
+        runs = study_runs(path, tmp_path / "out")
+    assert simulated == [7.0, 50.0]
+    assert [run["loading.velocity_mm_per_s"] for run in runs] == [7.0, 50.0]
+    table = summary_table(runs)
+    assert list(table.columns[:2]) == ["loading.velocity_mm_per_s", "status"]
+    case_file = tmp_path / "out" / "runs" / "velocity_mm_per_s_50.0" / "case.toml"
+    case_file.write_text(case_file.read_text().replace("height_mm = 8.0", "height_mm = 9.0"))
+    (case_file.parent / sweep_case.MARKER).unlink()
+    study_runs(path, tmp_path / "out")
+    assert simulated == [7.0, 50.0, 50.0]
+
+
+def test_runs_of_another_program_are_simulated_again(write_study, tmp_path, simulated, monkeypatch):
+    path = write_study(TWO)
+    study_runs(path, tmp_path / "out")
+    for changed in (module, sweep_case):
+        monkeypatch.setattr(changed, "program_version", lambda: "0.0.9+new")
+    study_runs(path, tmp_path / "out")
+    assert simulated == [7.0, 50.0] * 2
+
+
+def test_run_that_raises_an_error_is_said_and_the_finished_ones_are_kept(
+    write_study, tmp_path, simulated, monkeypatch
+):
+    def fails_at_50(case, **options):
+        if case.loading.velocity_mm_per_s == 50.0:
+            raise ValueError("no such thing")
+        return made_up_result(velocity_mm_per_s=case.loading.velocity_mm_per_s)
+
+    path = write_study(TWO)
+    monkeypatch.setattr(sweep_case, "simulate", fails_at_50)
+    with pytest.raises(StudyError, match=r"velocity_mm_per_s_50\.0: .*no such thing"):
+        study_runs(path, tmp_path / "out")
+    first, second = read_study(path)
+    assert holds(tmp_path / "out" / "runs" / first.name, first.case)
+    assert not holds(tmp_path / "out" / "runs" / second.name, second.case)
+
+
+def test_an_interrupted_run_is_not_taken_for_a_finished_one(tmp_path):
+    result = made_up_result()
+    result.summary["status"] = "interrupted"
+    result.write(tmp_path)
+    assert not holds(tmp_path, result.case)
+
+
+def test_a_run_of_a_version_with_other_keys_is_not_taken_for_this_case(tmp_path):
+    result = made_up_result()
+    result.write(tmp_path)
+    assert holds(tmp_path, result.case)
+    path = tmp_path / "case.toml"
+    path.write_text(path.read_text().replace("height_mm", "tallness_mm"))
+    assert not holds(tmp_path, result.case)
+    path.unlink()
+    assert not holds(tmp_path, result.case)
