@@ -1,4 +1,4 @@
-"""Study files: full product, stable names, errors in one line; finished runs are not repeated."""
+"""Study files: full product, stable names, errors in one line."""
 
 from __future__ import annotations
 
