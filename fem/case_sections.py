@@ -147,7 +147,8 @@ class Solver(Section):
     heat_step_mm: Positive = Field(0.5, description="longest sliding distance per heat step [mm]")
     steps_scale: Positive = Field(1.0, description="factor on all steps; 0.5 halves them [-]")
     linear_solver: Literal["auto", "superlu", "pardiso"] = Field(
-        "auto", description='"auto", "superlu" or "pardiso" (extra "fast")'
+        "auto",
+        description='"superlu", "pardiso" (extra "fast"), or "auto": Pardiso where it pays',
     )
 
     @field_validator("linear_solver")

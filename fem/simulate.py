@@ -50,7 +50,7 @@ def coupled_model(case: Case) -> CoupledModel:
         viscosity=viscosity(case, mesh),
         top=case.loading.top,
         tolerance=solver.tolerance * force,
-        solver=linear_solver(solver.linear_solver),
+        solver=linear_solver(solver.linear_solver, 2 * len(mesh.points)),
     )
     laws = ContactLaws(
         friction=case.friction.law_object(),

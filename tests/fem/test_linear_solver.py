@@ -5,7 +5,14 @@ import pytest
 from scipy.sparse import csc_matrix, diags, kron, random
 from scipy.sparse.linalg import splu
 
-from fem.linear_solver import SingularSystemError, SuperLUSolver, fill_reducing_order
+from fem import linear_solver as module
+from fem.linear_solver import (
+    PARDISO_PAYS,
+    SingularSystemError,
+    SuperLUSolver,
+    fill_reducing_order,
+    linear_solver,
+)
 
 
 def dominant(size=200, seed=1):
@@ -98,3 +105,27 @@ def test_fill_reducing_order_is_a_permutation_that_reduces_the_fill():
         return splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0).L.nnz
 
     assert fill(A[order][:, order]) < 0.5 * fill(A)
+
+
+@pytest.mark.parametrize(
+    "name, unknowns, installed, expected",
+    [
+        ("auto", PARDISO_PAYS - 1, True, "SuperLUSolver"),
+        ("auto", PARDISO_PAYS, True, "PardisoSolver"),
+        ("auto", PARDISO_PAYS, False, "SuperLUSolver"),
+        ("superlu", PARDISO_PAYS, True, "SuperLUSolver"),
+        ("pardiso", 10, True, "PardisoSolver"),
+    ],
+)
+def test_pardiso_is_taken_where_it_is_installed_and_pays(
+    name, unknowns, installed, expected, monkeypatch
+):
+    monkeypatch.setattr(module, "pardiso_available", lambda: installed)
+    monkeypatch.setattr(module.PardisoSolver, "__post_init__", lambda self: None)
+    assert type(linear_solver(name, unknowns)).__name__ == expected
+
+
+def test_pardiso_without_its_package_says_what_to_install(monkeypatch):
+    monkeypatch.setattr(module, "pardiso_available", lambda: False)
+    with pytest.raises(ValueError, match=r"pip install treadfem\[fast\]"):
+        linear_solver("pardiso", 10)
