@@ -85,7 +85,8 @@ def test_second_half_of_a_long_slide_costs_no_more_than_the_first(benchmark):
     first = cost(distance, cpu, iterations, 0.0, half)[2]
     second = cost(distance, cpu, iterations, half, LONG_SLIDE_MM)[2]
     print(f"second half over first: {second / first:.3f}")
-    assert 0.8 < second / first < 1.2
+    # The cost must not grow. It may fall: the onset of sliding is in the first half.
+    assert second / first < 1.2
 
 
 def cost(distance, cpu, iterations, begin, end):

@@ -56,7 +56,7 @@ def study_runs(study: str | Path, directory: str | Path) -> list[StudyRun]:
     Raises
     ------
     StudyError
-        If a run raised an error; the others are kept.
+        If a run raised an error; those that finished before it are kept.
     """
     cases = read_study(study)
     runs = Path(directory).absolute() / "runs"
