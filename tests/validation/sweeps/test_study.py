@@ -8,25 +8,6 @@ from fem.case_errors import CaseError
 from validation.paper.introductory import introductory_case
 from validation.sweeps.study import STUDIES, read_study
 
-BASE = """
-[loading]
-mean_pressure_N_per_mm2 = 0.25
-velocity_mm_per_s = 300.0
-distance_mm = 120.0
-"""
-
-
-@pytest.fixture
-def write_study(tmp_path):
-    (tmp_path / "case.toml").write_text(BASE)
-
-    def write(text: str):
-        path = tmp_path / "study.toml"
-        path.write_text(text)
-        return path
-
-    return write
-
 
 def test_the_grid_is_the_full_product_in_the_order_of_the_file(write_study):
     path = write_study(

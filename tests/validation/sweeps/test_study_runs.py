@@ -10,25 +10,6 @@ from validation.sweeps import sweep_case
 from validation.sweeps.study import read_study
 from validation.sweeps.study_runs import StudyError, holds, study_runs, summary_table
 
-BASE = """
-[loading]
-mean_pressure_N_per_mm2 = 0.25
-velocity_mm_per_s = 300.0
-distance_mm = 120.0
-"""
-
-
-@pytest.fixture
-def write_study(tmp_path):
-    (tmp_path / "case.toml").write_text(BASE)
-
-    def write(text: str):
-        path = tmp_path / "study.toml"
-        path.write_text(text)
-        return path
-
-    return write
-
 
 @pytest.fixture
 def simulated(monkeypatch):
