@@ -31,6 +31,16 @@ NO_SHIFT: Changes = {"no shift of friction with temperature": {"friction.wlf": F
 NEO_HOOKE = {"rubber.model": "neo-hooke", "rubber.G_N_per_mm2": 0.7588}
 
 
+def rigid_block(law: str, pressure: float) -> dict[str, Any]:
+    """A rigid block at 50 mm/s: the same pressure [N/mm^2] everywhere, nothing deforms."""
+    return {
+        "block.rigid": True,
+        "loading.velocity_mm_per_s": 50.0,
+        "loading.mean_pressure_N_per_mm2": pressure,
+        "friction.law": law,
+    }
+
+
 def tried(
     evidence: Evidence,
     changes: Changes,

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from fem.results import Result
+from validation.claims import experiments
 from validation.claims.claim import Claim, Finding, claim, unchecked
 from validation.claims.evidence import EXPONENTIAL, HUEMER, LAWS, Evidence, Point
 from validation.claims.paper_numbers import ACCEPTED_K, MEASURED_TO_K, relative_range
@@ -427,8 +428,20 @@ def _elsewhere_words(evidence: Evidence, velocity: float) -> str:
         f"The hottest point lies towards the rear, where the pressure tapers off: it is under "
         f"{min(local):.2f} to {max(local):.2f} N/mm² at every mean pressure. In the middle of the "
         f"block, under about the mean pressure, the change is {min(middle):+.2f} to "
-        f"{max(middle):+.2f} K."
+        f"{max(middle):+.2f} K. {_rigid_words(evidence)}"
     )
+
+
+def _rigid_words(evidence: Evidence) -> str:
+    """Change of T_max with pressure where nothing deforms."""
+    parts = []
+    for law in LAWS:
+        low, high = (
+            float(evidence.changed(experiments.rigid_block(law, p)).summary["T_max_C"])
+            for p in (0.2, 0.4)
+        )
+        parts.append(f"{high - low:+.2f} K ({law})")
+    return f"In a rigid block from 0.2 to 0.4 N/mm², the same everywhere: {', '.join(parts)}."
 
 
 def _heat_flux_words(evidence: Evidence) -> str:

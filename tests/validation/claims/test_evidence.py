@@ -68,6 +68,7 @@ def test_every_case_of_the_study_is_used():
         *experiments.NOMINAL_CONTACT.values(),
         *experiments.NO_SHIFT.values(),
         experiments.NEO_HOOKE,
+        *(experiments.rigid_block(law, p) for law in LAWS for p in (0.2, 0.4)),
     ]
     low = min(PAPER_N_PER_MM, key=PAPER_N_PER_MM.__getitem__)
     of_low = [{"rubber.compound": low, **keys} for keys in tried]
