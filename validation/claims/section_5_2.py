@@ -100,7 +100,7 @@ def laws_give_similar_curves(evidence: Evidence) -> Finding:
         values={f"mean_difference_at_{v:g}_mm_per_s_K": value for v, value in found.items()},
         criterion=f"at most {limit:g} K each, the deviation that this section accepts",
         holds=most <= limit,
-        explanation=""
+        explanation=_measurable(found)
         if most <= limit
         else f"At {worst:g} mm/s the laws differ by more; T_max itself by "
         f"{abs(_gap(evidence.velocities[worst])):.2f} K.",
@@ -357,6 +357,18 @@ def exponential_law_would_fail(evidence: Evidence) -> Finding:
     return unchecked("Friction parameters are printed for one compound only (Table 2).")
 
 
+def _measurable(found: dict[float, float]) -> str:
+    """At which velocities a difference, although accepted, could have been measured."""
+    limit = MEASURED_TO_K[1]
+    beyond = [f"{v:g} mm/s" for v, value in found.items() if value > limit]
+    if not beyond:
+        return ""
+    return (
+        f"With {limit:g} K, to which the paper could measure, as the limit, it would differ at "
+        f"{', '.join(beyond)}."
+    )
+
+
 def _gap(laws: dict[str, Result]) -> float:
     """T_max with Huemer's law less T_max with the exponential one [K]."""
     return float(laws[HUEMER].summary["T_max_C"]) - float(laws[EXPONENTIAL].summary["T_max_C"])
@@ -456,8 +468,7 @@ def _heat_flux_words(evidence: Evidence) -> str:
     h = [float(conductance.conductance(p)) for p in (low, high)]
     return (
         f"From 0.2 to 0.4 N/mm² the frictional heat kappa mu p grows by a factor of "
-        f"{heat[1] / heat[0]:.2f} and the conductance to the road by {h[1] / h[0]:.2f}: what "
-        "slides slowly long enough loses to the road what it gains."
+        f"{heat[1] / heat[0]:.2f} and the conductance to the road by {h[1] / h[0]:.2f}."
     )
 
 
