@@ -507,12 +507,12 @@ def _claims(arguments: argparse.Namespace) -> int:
     from validation.claims.write import write_claims
 
     check_output_folder(arguments.output)
-    make = partial(_last, write_claims, arguments.output)
+
+    def make() -> Path:
+        _, text = write_claims(arguments.output)
+        return text
+
     return DONE if _made(arguments, "claims", make, show=True) else NOT_CONVERGED
-
-
-def _last(write: Callable[[str], Sequence[Path]], directory: str) -> Path:
-    return write(directory)[-1]
 
 
 def _add_sensitivity(commands: Any) -> None:

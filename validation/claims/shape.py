@@ -37,11 +37,6 @@ def amount_of_shear(result: Result) -> float:
     return float(np.trapezoid(u_x, X[bottom]) / np.ptp(X) / np.ptp(Y))
 
 
-def front_face(state: BlockState) -> FloatArray:
-    """Current points of the leading face above the corner, from the bottom, (n, 2) [mm]."""
-    return np.asarray(state.points[front_face_nodes(state)])
-
-
 def front_face_nodes(state: BlockState) -> np.ndarray:
     """Nodes of the leading face above the corner, from the bottom."""
     X, Y = state.geometry.points.T
