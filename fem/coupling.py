@@ -210,12 +210,14 @@ class CoupledModel:
         mean_pressure: float,
         friction_passes: int,
         options: newton.NewtonOptions,
+        first_merit: float = 1.0,
         self_contact: SelfContact | None = None,
     ) -> None:
         self.self_contact = self_contact
         self.mechanics, self.heat, self.laws = mechanics, heat, laws
         self.mean_pressure, self.friction_passes = mean_pressure, friction_passes
         self.options = options
+        self.first_options = replace(options, tolerance=max(options.tolerance, first_merit))
 
     def initial_state(self) -> CoupledState:
         """Block at rest, just touching the road, at ambient temperature."""
@@ -239,14 +241,16 @@ class CoupledModel:
         Passes over the friction coefficient and over the pairs of self-contact, each from the
         solution of the last.
         """
-        mu, pairs, start = state.mu, self._pairs(state, state.mechanics.u), None
+        mu, pairs = state.mu, self._pairs(state, state.mechanics.u)
+        load = StepLoad(dt=target.dt, sweep=target.sweep, force=target.force, mu=mu, pairs=pairs)
+        problem = self.mechanics.step(state.mechanics, load)
+        start = problem.start()
         iterations = hardest = 0
+        self.mechanics.solver.forget()
         for number in range(1, PASSES_MAX + 1):
-            load = StepLoad(
-                dt=target.dt, sweep=target.sweep, force=target.force, mu=mu, pairs=pairs
-            )
-            problem = self.mechanics.step(state.mechanics, load)
-            result = newton.solve(problem, start or problem.start(), self.options)
+            last = number >= self.friction_passes
+            options = self.options if last else self.first_options
+            result = newton.solve(problem, start, options)
             iterations += result.iterations
             hardest = max(hardest, result.iterations)
             if result.failure is not None:
@@ -256,9 +260,10 @@ class CoupledModel:
             contact = self._contact(problem, result.x, result.evaluation)
             mu_next = self._coefficient(contact, state.heat)
             lag = lag_error(contact, mu_next)
-            mu_settled = lag < LAG_TOLERANCE or number >= self.friction_passes
+            mu_settled = lag < LAG_TOLERANCE or last
             next_pairs = self._followed(state, pairs, result.x.u)
-            if mu_settled and next_pairs is pairs:
+            solved = result.evaluation.merit <= self.options.tolerance
+            if mu_settled and next_pairs is pairs and solved:
                 penetration = self._penetration(problem, result.x.u)
                 if self.self_contact is not None and penetration > PENETRATION_MAX:
                     return RejectedStep(
@@ -270,7 +275,7 @@ class CoupledModel:
                     iterations=iterations, hardest=hardest, lag=lag, penetration=penetration,
                 )  # fmt: skip
             mu, pairs = mu if mu_settled else mu_next, next_pairs
-            start = replace(result.x, reactions=None)
+            problem, start = problem.again(mu, pairs), replace(result.x, reactions=None)
         return RejectedStep(
             failure=newton.Failure.ITERATIONS, detail="self-contact keeps changing its partners",
             iterations=iterations,

@@ -18,7 +18,7 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
@@ -32,16 +32,23 @@ from materials.plane_strain import cauchy_stress
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
+#: Elements whose tangents are computed at once, so that intermediate arrays stay in the cache.
+BATCH = 1024
+
 
 @dataclass(frozen=True, kw_only=True)
 class Kinematics:
-    """Deformation gradient at the Gauss points, components (ne, 4), and cell volume ratio."""
+    """Deformation gradient at the Gauss points, components (ne, 4), cell volume ratio and gradient.
+
+    The gradient is that of the deformed area with respect to the corners, (ne, 4, 2) [mm].
+    """
 
     F11: FloatArray
     F12: FloatArray
     F21: FloatArray
     F22: FloatArray
     Jbar: FloatArray
+    area_gradient: FloatArray
 
     @cached_property
     def J(self) -> FloatArray:
@@ -60,6 +67,12 @@ class Kinematics:
             0.5 * (self.F11**2 + self.F21**2 - 1.0),
             0.5 * (self.F12**2 + self.F22**2 - 1.0),
             0.5 * (self.F11 * self.F12 + self.F21 * self.F22),
+        )
+
+    def part(self, cells: slice) -> Kinematics:
+        """Kinematics of some of the elements."""
+        return Kinematics(
+            **{field.name: getattr(self, field.name)[cells] for field in fields(self)}
         )
 
     @property
@@ -83,6 +96,14 @@ class Viscosity:
 
     rate: float | FloatArray
     strain_n: tuple[FloatArray, FloatArray, FloatArray]
+
+    def part(self, cells: slice) -> Viscosity:
+        """The term for some of the elements."""
+        rate = (
+            self.rate[cells] if isinstance(self.rate, np.ndarray) and self.rate.ndim else self.rate
+        )
+        E11, E22, E12 = (E[cells] for E in self.strain_n)
+        return Viscosity(rate=rate, strain_n=(E11, E22, E12))
 
     def stress(self, kinematics: Kinematics) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Viscous second Piola-Kirchhoff stresses S11, S22, S12 [N/mm^2]."""
@@ -109,6 +130,15 @@ class ElementForces:
     derivatives: EnergyDerivatives
     area_gradient: FloatArray
     pressure: FloatArray
+
+    def part(self, cells: slice) -> ElementForces:
+        """Forces of some of the elements."""
+        return ElementForces(
+            residual=self.residual[cells], pressure_residual=self.pressure_residual[cells],
+            kinematics=self.kinematics.part(cells),
+            derivatives=EnergyDerivatives(*(W[cells] for W in self.derivatives)),
+            area_gradient=self.area_gradient[cells], pressure=self.pressure[cells],
+        )  # fmt: skip
 
 
 class Q1P0Elements:
@@ -137,7 +167,7 @@ class Q1P0Elements:
         self.cells = mesh.cells
         self._X = mesh.points[mesh.cells]
 
-    @property
+    @cached_property
     def dofs(self) -> IntArray:
         """Global dofs (2 node + component) of the elements, (ne, 8)."""
         return (2 * self.cells[:, :, None] + np.arange(2)).reshape(-1, 8)
@@ -155,16 +185,23 @@ class Q1P0Elements:
             F21=H[:, 1, :, 0].copy(),
             F22=1.0 + H[:, 1, :, 1],
             Jbar=area / self.volume,
+            area_gradient=b,
         )
+
+    def largest_gradient(self, u: FloatArray) -> float:
+        """Largest norm of the gradient of nodal displacements `u` (n, 2) at a Gauss point [-]."""
+        H = np.matmul(u[self.cells].transpose(0, 2, 1), self._G_flat)  # (ne, i, (q, I))
+        squares = H[:, 0] ** 2 + H[:, 1] ** 2
+        return float(np.sqrt((squares[:, ::2] + squares[:, 1::2]).max()))
 
     def admissible(self, kinematics: Kinematics) -> bool:
         """Whether the energy exists at every Gauss point."""
         return bool(self.model.admissible(kinematics.I1, kinematics.J).all())
 
     def forces(
-        self, u: FloatArray, p: FloatArray, kin: Kinematics, viscosity: Viscosity | None = None
+        self, p: FloatArray, kin: Kinematics, viscosity: Viscosity | None = None
     ) -> ElementForces:
-        """Internal nodal forces at displacement `u` (n, 2) and element pressures `p` (ne,)."""
+        """Internal nodal forces at kinematics `kin` and element pressures `p` (ne,)."""
         d = self.model.derivatives(kin.I1, kin.J)
         w = self.weights
         A11, A22, A12 = 2.0 * w * d.W_1, 2.0 * w * d.W_1, np.zeros_like(w)
@@ -180,7 +217,7 @@ class Q1P0Elements:
         P[..., 1, 1] = kin.F21 * A12 + kin.F22 * A22 + c * kin.F11
         P_flat = P.transpose(0, 1, 3, 2).reshape(-1, 8, 2)
         residual = np.matmul(self._G_flat, P_flat).reshape(-1, 8)
-        b = area_gradient(self._X + u[self.cells]).reshape(-1, 8)
+        b = kin.area_gradient.reshape(-1, 8)
         dU_dJ = self.K_bulk * (kin.Jbar - 1.0)
         return ElementForces(
             residual=residual + dU_dJ[:, None] * b,
@@ -192,47 +229,25 @@ class Q1P0Elements:
         )
 
     def tangent(self, forces: ElementForces, viscosity: Viscosity | None = None) -> FloatArray:
-        """Element tangents with the condensed pressure, (ne, 8, 8) [N/mm^2]."""
-        ne = len(self.cells)
-        b = forces.area_gradient
-        K = np.matmul((b * (self.K_bulk / self.volume)[:, None])[:, :, None], b[:, None, :])
-        blocks = np.matmul(self._stiffness(forces, viscosity), self._GG).reshape(ne, 3, 4, 4)
-        blocks[:, 1] += forces.pressure[:, None, None] * AREA_HESSIAN
-        parts = K.reshape(ne, 4, 2, 4, 2)
-        parts[:, :, 0, :, 0] += blocks[:, 0]
-        parts[:, :, 1, :, 1] += blocks[:, 2]
-        parts[:, :, 0, :, 1] += blocks[:, 1]
-        parts[:, :, 1, :, 0] += blocks[:, 1].transpose(0, 2, 1)
-        return K
+        """Element tangents with the condensed pressure [N/mm^2].
 
-    def _stiffness(self, forces: ElementForces, viscosity: Viscosity | None) -> FloatArray:
-        """Weighted dP_im/dF_jn as (ne, 3, 16): rows ij = 11, 12, 22, columns (q, m, n)."""
-        kin, d, w = forces.kinematics, forces.derivatives, self.weights
-        F = ((kin.F11, kin.F12), (kin.F21, kin.F22))
-        cof = ((kin.F22, -kin.F21), (-kin.F12, kin.F11))
-        w_11, w_1J, w_JJ, w_J = 4.0 * w * d.W_11, 2.0 * w * d.W_1J, w * d.W_JJ, w * d.W_J
-        S = np.array([[1.0, 0.0], [0.0, 1.0]])[:, :, None, None] * (2.0 * w * d.W_1)
-        half = None
-        if viscosity is not None:
-            S11, S22, S12 = viscosity.stress(kin)
-            S += np.array([[S11, S12], [S12, S22]]) * w
-            half = 0.5 * viscosity.rate * w
-        A = np.empty((len(self.cells), 3, 4, 4))
-        for row, (i, j) in enumerate(((0, 0), (0, 1), (1, 1))):
-            left = [w_11 * F[i][m] + w_1J * cof[i][m] for m in (0, 1)]
-            right = [w_1J * F[i][m] + w_JJ * cof[i][m] for m in (0, 1)]
-            for m, n in ((0, 0), (0, 1), (1, 0), (1, 1)):
-                value = left[m] * F[j][n] + right[m] * cof[j][n]
-                if i == j:
-                    value += S[m, n]
-                elif m != n:
-                    value += w_J if m < n else -w_J
-                if half is not None:
-                    value += half * F[i][n] * F[j][m]
-                    if m == n:
-                        value += half * (F[i][0] * F[j][0] + F[i][1] * F[j][1])
-                A[:, row, :, 2 * m + n] = value
-        return A.reshape(-1, 3, 16)
+        Returns
+        -------
+        (ne, 2, 2, 4, 4) float array
+            Entry ``[e, i, j, a, b]`` is the change of the force on node a along i with the
+            displacement of node b along j; see `tangent_entries` for its place in a matrix.
+        """
+        K = np.empty((len(self.cells), 2, 2, 4, 4))
+        for start in range(0, len(K), BATCH):
+            cells = slice(start, start + BATCH)
+            viscous = None if viscosity is None else viscosity.part(cells)
+            A = _weighted_stiffness(forces.part(cells), self.weights[cells], viscous)
+            np.matmul(A, self._GG[cells], out=K[cells].reshape(-1, 4, 16))
+            K[cells, 1, 0] = K[cells, 0, 1].transpose(0, 2, 1)
+            b = forces.area_gradient[cells].reshape(-1, 4, 2).transpose(0, 2, 1)
+            c = b * (self.K_bulk / self.volume[cells])[:, None, None]
+            K[cells] += c[:, :, None, :, None] * b[:, None, :, None, :]
+        return K
 
     def pressure_increment(self, forces: ElementForces, du: FloatArray) -> FloatArray:
         """Change of the element pressures with `du` (n, 2) by the linearised pressure law."""
@@ -261,8 +276,65 @@ class Q1P0Elements:
         return np.asarray(np.sum(share * np.sqrt(half_sum + root), axis=1))
 
 
-#: d2A/dx_a dy_b of the area of a quadrilateral: constant, since the area is bilinear in (x, y).
-AREA_HESSIAN = 0.5 * (np.roll(np.eye(4), 1, axis=1) - np.roll(np.eye(4), -1, axis=1))
+def _weighted_stiffness(
+    forces: ElementForces, weights: FloatArray, viscosity: Viscosity | None
+) -> FloatArray:
+    """Weighted dP_im/dF_jn as (ne, 4, 16): rows ij = 11, 12, 21, 22, columns (q, m, n).
+
+    The row 21 repeats 12; what it leads to is the transpose of that. The element pressure acts on
+    the Hessian of the area, which is the integral of that of J.
+    """
+    kin, d, w = forces.kinematics, forces.derivatives, weights
+    F = ((kin.F11, kin.F12), (kin.F21, kin.F22))
+    cof = ((kin.F22, -kin.F21), (-kin.F12, kin.F11))
+    w_11, w_1J, w_JJ = 4.0 * w * d.W_11, 2.0 * w * d.W_1J, w * d.W_JJ
+    w_J = w * (d.W_J + forces.pressure[:, None])
+    S = np.array([[1.0, 0.0], [0.0, 1.0]])[:, :, None, None] * (2.0 * w * d.W_1)
+    half_F = None
+    if viscosity is not None:
+        S11, S22, S12 = viscosity.stress(kin)
+        S += np.array([[S11, S12], [S12, S22]]) * w
+        half = 0.5 * viscosity.rate * w
+        half_F = [[half * F_im for F_im in row] for row in F]
+    A = np.empty((len(w), 4, 4, 4))
+    for row, i, j in ((0, 0, 0), (1, 0, 1), (3, 1, 1)):
+        left = [w_11 * F[i][m] + w_1J * cof[i][m] for m in (0, 1)]
+        right = [w_1J * F[i][m] + w_JJ * cof[i][m] for m in (0, 1)]
+        dot = 0.0 if half_F is None else half_F[i][0] * F[j][0] + half_F[i][1] * F[j][1]
+        for m, n in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            if i == j and m > n:  # symmetric
+                A[:, row, :, 2 * m + n] = A[:, row, :, 2 * n + m]
+                continue
+            value = left[m] * F[j][n] + right[m] * cof[j][n]
+            if i == j:
+                value += S[m, n]
+            elif m != n:
+                value += w_J if m < n else -w_J
+            if half_F is not None:
+                value += half_F[i][n] * F[j][m]
+                if m == n:
+                    value += dot
+            A[:, row, :, 2 * m + n] = value
+    A[:, 2] = A[:, 1]
+    return A.reshape(-1, 4, 16)
+
+
+def tangent_entries(dofs: IntArray) -> tuple[IntArray, IntArray]:
+    """Row and column dofs of the entries of `Q1P0Elements.tangent`.
+
+    Parameters
+    ----------
+    dofs : (ne, 4, 2) int array
+        Dofs of the corners, by component.
+
+    Returns
+    -------
+    rows, columns : (ne, 2, 2, 4, 4) int arrays
+    """
+    d = dofs.transpose(0, 2, 1)
+    shape = (len(d), 2, 2, 4, 4)
+    rows = np.broadcast_to(d[:, :, None, :, None], shape)
+    return rows, np.broadcast_to(d[:, None, :, None, :], shape)
 
 
 def area_gradient(x: FloatArray) -> FloatArray:

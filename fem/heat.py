@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -406,7 +407,7 @@ class HeatModel:
     ) -> tuple[FloatArray, RoadState, FloatArray, float, int]:
         """New block temperature, road, heat flow; heat radiated; iterations of the exchange."""
         dt, nodes = interval.dt, load.contact_nodes
-        solve = interval.factor.factor.solve
+        solve = partial(self.block.solve, interval.factor)
         block_loss = interval.radiating * radiated_flux(T, self.ambient_C, self.emissivity)
         way = self._passage(road, interval.piece, start, end)
         road_loss = self._road_loss(road, way, interval.piece)
@@ -422,7 +423,7 @@ class HeatModel:
         def block_response(q: FloatArray) -> FloatArray:
             rhs = np.zeros(self.block.n)
             rhs[nodes] = dt * q
-            return np.asarray(solve(rhs))
+            return solve(rhs)
 
         def difference_response(q: FloatArray, drop: FloatArray) -> FloatArray:
             return drop[nodes] + way.seen(road_step.surface_change(dt * way.distributed(q)))

@@ -18,6 +18,7 @@ References
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -112,6 +113,8 @@ class BlockConduction:
         self.capacity = self._lumped_capacity(basis)
         self._prepare_pattern()
         self._prepare_gradient()
+        #: Time spent in factorisations and solves [s].
+        self.solver_seconds = 0.0
 
     def _lumped_capacity(self, basis: Basis) -> FloatArray:
         """Heat capacity of each node per mm depth, (n,) [mJ/K]."""
@@ -216,13 +219,22 @@ class BlockConduction:
         matrix = self.conduction_matrix(displacement)
         matrix.data *= dt
         matrix.data[self._diagonal] += self.capacity
+        start = time.perf_counter()
         factor = splu(
             matrix,
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.001,
             options={"SymmetricMode": True},
         )
+        self.solver_seconds += time.perf_counter() - start
         return Factorisation(displacement=displacement, dt=dt, factor=factor)
+
+    def solve(self, factorisation: Factorisation, rhs: FloatArray) -> FloatArray:
+        """Solution of a factored system."""
+        start = time.perf_counter()
+        x = np.asarray(factorisation.factor.solve(rhs))
+        self.solver_seconds += time.perf_counter() - start
+        return x
 
     def heat_content(self, T: FloatArray, T_0_C: float) -> float:
         """Heat stored above a reference temperature per mm depth [mJ/mm]."""

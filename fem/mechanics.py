@@ -9,6 +9,8 @@ and Coulomb friction is the row operation ``row_x + s mu row_y`` (s: sense of th
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
@@ -19,9 +21,10 @@ from scipy.sparse import coo_matrix, csc_matrix
 
 from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
 from contact.self_contact import Boundary, PairForces, Pairs, pair_forces, pair_tangents
-from fem.elements import ElementForces, Q1P0Elements, Viscosity
-from fem.linear_solver import LinearSolver, SuperLUSolver, fill_reducing_order
+from fem.direct_solver import LinearSolver, SuperLUSolver
+from fem.elements import ElementForces, Q1P0Elements, Viscosity, tangent_entries
 from fem.mesh import BlockMesh
+from fem.nested_dissection import nested_dissection
 from fem.sparse_pattern import SparsePattern, summed
 from fem.state import MechanicalState
 
@@ -163,33 +166,24 @@ class BlockMechanics:
 
     def _number_equations(self) -> None:
         """Equation numbers of all dofs (-1: prescribed), in a fill-reducing order."""
-        n = len(self.mesh.points)
-        dof = np.zeros((n, 2), dtype=np.int64)
-        dof[self.mesh.top, 0] = -1
-        if self.top == "platen":
-            dof[self.mesh.top[1:], 1] = -1
-        free = dof >= 0
-        dof[free] = np.arange(free.sum())
-        if self.top == "platen":
-            dof[self.mesh.top[1:], 1] = dof[self.mesh.top[0], 1]
-        size = int(free.sum())
-        pattern = SparsePattern.from_elements(self._element_equations(dof), size)
-        data = np.ones(pattern.nnz)
-        data[pattern.diagonal_slots()] = 100.0
-        order = fill_reducing_order(pattern.matrix(data))
-        number = np.empty(size, dtype=np.int64)
-        number[order] = np.arange(size)
-        dof[dof >= 0] = number[dof[dof >= 0]]
+        mesh, platen = self.mesh, self.top == "platen"
+        free = np.ones((len(mesh.points), 2), dtype=bool)
+        free[mesh.top, 0] = False
+        free[mesh.top, 1] = not platen
+        order = nested_dissection(mesh.grid)
+        dof = np.full(free.shape, -1)
+        dof[order] = np.where(free[order], np.cumsum(free[order]).reshape(-1, 2) - 1, -1)
+        size = int(free.sum()) + platen
+        if platen:
+            # Coupled with all nodes of the top, so it comes last.
+            dof[mesh.top, 1] = size - 1
         self.equation = dof
-        self.pattern = SparsePattern.from_elements(self._element_equations(dof), size)
+        self.pattern = SparsePattern.from_entries(*tangent_entries(dof[mesh.cells]), size)
         self._diagonal = self.pattern.diagonal_slots()
         rows = self.equation[self.candidates]
         self._slots_x, self._owner = self.pattern.row_slots(rows[:, 0])
         self._slots_y, _ = self.pattern.row_slots(rows[:, 1])
         self._numbered = dof.ravel() >= 0
-
-    def _element_equations(self, dof: IntArray) -> IntArray:
-        return dof[self.mesh.cells].reshape(-1, 8)
 
     def initial_state(self) -> MechanicalState:
         """Undeformed block at rest, just above the road."""
@@ -255,6 +249,13 @@ class StepProblem:
             strain_n = elements.kinematics(state.u).green_lagrange
             self.viscosity = Viscosity(rate=system.viscosity / load.dt, strain_n=strain_n)
         self.frame = np.array([load.sweep / load.dt, 0.0])
+        self._latest: tuple[FloatArray, FloatArray, ElementForces] | None = None
+
+    def again(self, mu: FloatArray, pairs: Pairs | None) -> StepProblem:
+        """The same step with other friction coefficients and pairs of self-contact."""
+        other = copy(self)
+        other.load = replace(self.load, mu=mu, pairs=pairs)
+        return other
 
     def start(self) -> Iterate:
         """Start value: the last state, with the status predicted from its motion.
@@ -292,10 +293,9 @@ class StepProblem:
 
     def _evaluate(self, x: Iterate, first: bool) -> StepEvaluation:
         system = self.system
-        kin = system.elements.kinematics(x.u)
-        if not system.elements.admissible(kin):
+        elements = self._element_forces(x)
+        if elements is None:
             return inadmissible(x.status)
-        elements = system.elements.forces(x.u, x.p, kin, self.viscosity)
         nodal = self.nodal_forces(x.u, elements)
         pairs = None
         if self.load.pairs is not None:
@@ -303,13 +303,24 @@ class StepProblem:
             np.add.at(nodal, self.load.pairs.nodes, pairs.residual.reshape(-1, 3, 2))
         status = x.status if first else self._next_status(x, nodal)
         residual = self._residual(nodal, self.contact_forces(x.u, nodal), status)
-        stiffness = system.elements.K_bulk
         mismatch = np.abs(elements.pressure_residual * np.sqrt(system.elements.volume)).max()
-        merit = max(self._size(residual, status, stiffness), mismatch) / system.tolerance
+        merit = max(np.abs(residual).max(), mismatch) / system.tolerance
         return StepEvaluation(
             merit=float(merit), settled=not first and status.same_as(x.status),
             status=status, nodal=nodal, residual=residual, elements=elements, pairs=pairs,
         )  # fmt: skip
+
+    def _element_forces(self, x: Iterate) -> ElementForces | None:
+        """Forces of the elements, those of the latest iterate kept; None if not admissible."""
+        if self._latest is not None and self._latest[0] is x.u and self._latest[1] is x.p:
+            return self._latest[2]
+        elements = self.system.elements
+        kin = elements.kinematics(x.u)
+        if not elements.admissible(kin):
+            return None
+        forces = elements.forces(x.p, kin, self.viscosity)
+        self._latest = x.u, x.p, forces
+        return forces
 
     def _next_status(self, x: Iterate, nodal: FloatArray) -> ContactStatus:
         """Status that the iterate asks for.
@@ -337,75 +348,97 @@ class StepProblem:
     def _residual(
         self, nodal: FloatArray, forces: ContactForces, status: ContactStatus
     ) -> FloatArray:
-        """Residual of the equations: forces, gaps (active) and slips (sticking)."""
+        """Residual of the equations [N/mm]: forces, gaps (active) and slips (stick).
+
+        Gaps and slips are multiplied by the bulk modulus, so that all have one unit and size.
+        """
         r = self.system.gather(nodal)
-        rows = self.system.equation[self.system.candidates]
+        rows, stiffness = self.system.equation[self.system.candidates], self.system.elements.K_bulk
         slipping, sticking, active = status.slipping, status.sticking, status.active
         friction = forces.tangential + status.sense * self.load.mu * forces.normal
         r[rows[slipping, 0]] = friction[slipping]
-        r[rows[sticking, 0]] = forces.slip[sticking]
-        r[rows[active, 1]] = forces.gap[active]
+        r[rows[sticking, 0]] = stiffness * forces.slip[sticking]
+        r[rows[active, 1]] = stiffness * forces.gap[active]
         return r
-
-    def _size(self, r: FloatArray, status: ContactStatus, stiffness: float) -> float:
-        """Largest residual, displacements weighted with a stiffness to forces [N/mm]."""
-        rows = self.system.equation[self.system.candidates]
-        scale = np.ones(r.size)
-        scale[rows[status.active, 1]] = stiffness
-        scale[rows[status.sticking, 0]] = stiffness
-        return float(np.abs(r * scale).max())
 
     def direction(self, x: Iterate, evaluation: StepEvaluation) -> Iterate:
         """Newton direction with the status asked for by the iterate."""
         system, elements = self.system, evaluation.elements
         assert elements is not None
-        K = system.elements.tangent(elements, self.viscosity)
-        step = system.solver.solve(self._matrix(K, evaluation), -evaluation.residual)
+        data, pairs = self._force_tangents(evaluation)
+        change_of = self._candidate_rows(data)
+        matrix = self._constrained(data, pairs, evaluation.status)
+        step = system.solver.solve(matrix, -evaluation.residual)
+        held = self._held_equations(evaluation.status)
+        # Gaps and slips close exactly, however roughly the system is solved.
+        step[held] = -evaluation.residual[held] / system.elements.K_bulk
         du = system.scatter(step)
         dp = system.elements.pressure_increment(elements, du)
-        change = self._force_change(K, evaluation, du)[system.candidates]
+        change = change_of(step)
+        if pairs is not None:
+            assert self.load.pairs is not None
+            nodes = self.load.pairs.nodes
+            on_nodes, g = np.zeros_like(du), np.matmul(pairs, du[nodes].reshape(-1, 6, 1))
+            np.add.at(on_nodes, nodes, g.reshape(-1, 3, 2))
+            change += on_nodes[system.candidates]
         return Iterate(u=du, p=dp, status=evaluation.status, reactions=change)
 
-    def _force_change(
-        self, K: FloatArray, evaluation: StepEvaluation, du: FloatArray
-    ) -> FloatArray:
-        """Linear change of the nodal forces with `du`, (n, 2) [N/mm]."""
-        system, pairs, forces = self.system, self.load.pairs, evaluation.pairs
-        f = np.matmul(K, du[system.elements.cells].reshape(-1, 8, 1))
-        change = summed(system.elements.dofs.ravel(), f.ravel(), du.size).reshape(du.shape)
-        change += (system.mass / self.load.dt**2)[:, None] * du
-        if pairs is not None and forces is not None and forces.normal.any():
-            g = np.matmul(pair_tangents(pairs, forces), du[pairs.nodes].reshape(-1, 6, 1))
-            np.add.at(change, pairs.nodes, g.reshape(-1, 3, 2))
-        return change
+    def _held_equations(self, status: ContactStatus) -> IntArray:
+        """Equations that prescribe a displacement: gaps (active) and slips (sticking)."""
+        rows = self.system.equation[self.system.candidates]
+        return np.concatenate([rows[status.active, 1], rows[status.sticking, 0]])
 
     def tangent(self, evaluation: StepEvaluation) -> csc_matrix:
         """Tangent of the residual, with the status asked for by the iterate."""
-        assert evaluation.elements is not None
-        K = self.system.elements.tangent(evaluation.elements, self.viscosity)
-        return self._matrix(K, evaluation)
+        data, pairs = self._force_tangents(evaluation)
+        return self._constrained(data, pairs, evaluation.status)
 
-    def _matrix(self, K: FloatArray, evaluation: StepEvaluation) -> csc_matrix:
-        """Assembled tangent of the element tangents `K`, inertia and contact."""
-        system = self.system
-        data = system.pattern.sum(K)
+    def _force_tangents(self, evaluation: StepEvaluation) -> tuple[FloatArray, FloatArray | None]:
+        """Tangents of the nodal forces: matrix data of the block, and of the pairs (np, 6, 6)."""
+        system, elements, pairs = self.system, evaluation.elements, self.load.pairs
+        assert elements is not None
+        data = system.pattern.sum(system.elements.tangent(elements, self.viscosity))
         inertia = np.repeat(system.mass / self.load.dt**2, 2)
         equations = system.equation.ravel()
         data[system._diagonal] += np.bincount(
             equations[system._numbered], inertia[system._numbered], minlength=system.pattern.size
         )
-        data = self._with_contact_rows(data, evaluation.status)
-        matrix = system.pattern.matrix(data)
-        if evaluation.pairs is None or not evaluation.pairs.normal.any():
-            return matrix
-        return (matrix + self._pair_matrix(evaluation.pairs, evaluation.status)).tocsc()
+        if pairs is None or evaluation.pairs is None or not evaluation.pairs.normal.any():
+            return data, None
+        return data, pair_tangents(pairs, evaluation.pairs)
 
-    def _pair_matrix(self, forces: PairForces, status: ContactStatus) -> csc_matrix:
-        """Tangent of self-contact with the row operations of the road contact."""
+    def _candidate_rows(self, data: FloatArray) -> Callable[[FloatArray], FloatArray]:
+        """Linear change (m, 2) of the candidates' nodal forces with a step of the unknowns [N/mm].
+
+        The rows are copied, for contact then overwrites them.
+        """
+        system = self.system
+        slots = (system._slots_x, system._slots_y)
+        rows = [(data[slot], system.pattern.columns[slot]) for slot in slots]
+
+        def change(step: FloatArray) -> FloatArray:
+            parts = [
+                summed(system._owner, row * step[at], len(system.candidates)) for row, at in rows
+            ]
+            return np.column_stack(parts)
+
+        return change
+
+    def _constrained(
+        self, data: FloatArray, pairs: FloatArray | None, status: ContactStatus
+    ) -> csc_matrix:
+        """Matrix of the equations: force tangents with the rows of the contact status."""
+        matrix = self.system.pattern.matrix(self._with_contact_rows(data, status))
+        if pairs is None:
+            return matrix
+        return (matrix + self._pair_matrix(pairs, status)).tocsc()
+
+    def _pair_matrix(self, tangents: FloatArray, status: ContactStatus) -> csc_matrix:
+        """Tangents of self-contact (np, 6, 6) with the row operations of the road contact."""
         system, pairs = self.system, self.load.pairs
         assert pairs is not None
-        pressed = forces.normal > 0.0
-        K = pair_tangents(pairs, forces)[pressed]
+        pressed = tangents.any(axis=(1, 2))
+        K = tangents[pressed]
         equations = system.equation[pairs.nodes[pressed]].reshape(-1, 6)
         row = np.repeat(equations, 6, axis=1).ravel()
         column = np.tile(equations, (1, 6)).ravel()
@@ -417,8 +450,7 @@ class StepProblem:
         factor[rows[slipping, 1]] = (status.sense * self.load.mu)[slipping]
         partner[rows[slipping, 1]] = rows[slipping, 0]
         free = np.ones(size, dtype=bool)
-        free[rows[status.active, 1]] = False
-        free[rows[status.sticking, 0]] = False
+        free[self._held_equations(status)] = False
         passed = factor[row] != 0.0
         row_to = np.concatenate([row[free[row]], partner[row[passed]]])
         column_to = np.concatenate([column[free[row]], column[passed]])
@@ -432,18 +464,13 @@ class StepProblem:
         data[system._slots_x] += factor * data[system._slots_y]
         data[system._slots_x[status.sticking[owner]]] = 0.0
         data[system._slots_y[status.active[owner]]] = 0.0
-        rows = system.equation[system.candidates]
-        data[system._diagonal[rows[status.sticking, 0]]] = 1.0
-        data[system._diagonal[rows[status.active, 1]]] = 1.0
+        data[system._diagonal[self._held_equations(status)]] = system.elements.K_bulk
         return data
 
     def step_limit(self, x: Iterate, direction: Iterate) -> float:
         """Step in which no deformation gradient changes by more than `STRAIN_LIMIT`."""
-        change = self.system.elements.kinematics(direction.u)
-        size = np.sqrt(
-            (change.F11 - 1.0) ** 2 + change.F12**2 + change.F21**2 + (change.F22 - 1.0) ** 2
-        ).max()
-        return float(min(1.0, STRAIN_LIMIT / size)) if size > 0.0 else 1.0
+        size = self.system.elements.largest_gradient(direction.u)
+        return min(1.0, STRAIN_LIMIT / size) if size > 0.0 else 1.0
 
     def moved(
         self, x: Iterate, evaluation: StepEvaluation, direction: Iterate, alpha: float

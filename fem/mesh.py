@@ -75,6 +75,11 @@ class BlockMesh:
         return MeshQuad(self.points.T.copy(), self.cells.T.copy(), sort_t=False)
 
     @cached_property
+    def grid(self) -> IntArray:
+        """Node numbers by column and row, (nx + 1, ny + 1)."""
+        return np.arange(len(self.points)).reshape(-1, len(self.rear))
+
+    @cached_property
     def boundary(self) -> IntArray:
         """Free boundary nodes from the rear top corner over the bottom to the front top corner."""
         return np.concatenate([self.rear[::-1], self.bottom[1:-1], self.front])

@@ -58,6 +58,7 @@ class Failure(Enum):
     INADMISSIBLE = "no admissible step (an element would invert or reach the locking stretch)"
     SINGULAR = "the tangent is singular (limit point or missing support)"
     DIVERGED = "the residual grows whatever the step length"
+    STALLED = "the residual stops falling"
     CYCLING = "the active set cycles: no contact state fits a step of this length"
     PENETRATION = "the surface passes through itself in a step of this length"
 
@@ -79,6 +80,9 @@ class NewtonOptions:
         since the merit jumps when the active set changes.
     cycles_max : int
         Allowed returns to an active set seen before without a clearly smaller merit.
+    patience : int
+        Allowed iterations in a row without a new smallest merit. A Newton iteration that goes on
+        longer without one rarely ends in a solution.
     """
 
     tolerance: float = 1.0
@@ -86,6 +90,7 @@ class NewtonOptions:
     halvings_max: int = 8
     growth_max: float = 20.0
     cycles_max: int = 2
+    patience: int = 6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,6 +129,7 @@ def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[
     if not np.isfinite(evaluation.merit):
         return NewtonResult(x=x, evaluation=evaluation, iterations=0, failure=Failure.INADMISSIBLE)
     merits, cycles = [evaluation.merit], _CycleCount()
+    progress = _Progress()
     for iteration in range(options.iterations_max):
         if evaluation.settled and evaluation.merit <= options.tolerance:
             return NewtonResult(x=x, evaluation=evaluation, iterations=iteration)
@@ -144,16 +150,40 @@ def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[
             )
         x, evaluation = step
         merits.append(evaluation.merit)
-        if cycles.returns(evaluation) > options.cycles_max:
-            return NewtonResult(
-                x=x, evaluation=evaluation, iterations=iteration + 1, failure=Failure.CYCLING
-            )
+        stop: Failure | None = None
+        if progress.pause(evaluation) > options.patience:
+            stop = Failure.STALLED
+        elif cycles.returns(evaluation) > options.cycles_max:
+            stop = Failure.CYCLING
+        if stop is not None:
+            return NewtonResult(x=x, evaluation=evaluation, iterations=iteration + 1, failure=stop)
     if evaluation.settled and evaluation.merit <= options.tolerance:
         return NewtonResult(x=x, evaluation=evaluation, iterations=options.iterations_max)
     return NewtonResult(
         x=x, evaluation=evaluation, iterations=options.iterations_max,
         failure=Failure.ITERATIONS, detail=f"last merit {evaluation.merit:.2e}",
     )  # fmt: skip
+
+
+class _Progress:
+    """Counts iterations since the last new smallest merit.
+
+    That of the start does not count: a start without contact or with the old friction may violate
+    little and still be far away.
+    """
+
+    #: A merit below this share of the smallest so far counts as a new smallest one.
+    SHARE = 0.9
+
+    def __init__(self) -> None:
+        self.smallest, self.count = np.inf, 0
+
+    def pause(self, evaluation: Evaluation) -> int:
+        """Iterations since the last new smallest merit, with this evaluation."""
+        self.count += 1
+        if evaluation.merit < self.SHARE * self.smallest:
+            self.smallest, self.count = evaluation.merit, 0
+        return self.count
 
 
 class _CycleCount:

@@ -27,6 +27,10 @@ ADVICE = {
         "the leading edge snaps; a larger [solver] edge_viscous_distance_mm carries it through "
         "more gently, a finer mesh in smaller steps"
     ),
+    Failure.STALLED: (
+        "a smaller [solver] step_mm_max, a finer mesh at the leading edge, or a larger "
+        "edge_viscous_distance_mm often helps"
+    ),
     Failure.PENETRATION: (
         "the crease is too coarse or closes too fast: use a finer mesh at the leading edge or a "
         "smaller [solver] step_mm_max"

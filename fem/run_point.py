@@ -26,8 +26,8 @@ class RunPoint:
     ----------
     phase : int
         Number of the phase; -1 before the first one.
-    at, step : float
-        Coordinate of the phase, and the next step to try.
+    at, step, bound : float
+        Coordinate of the phase, the next step to try, and what a failed step bounds it by.
     state : CoupledState
         Accepted state.
     audit : EnergyAudit
@@ -43,6 +43,7 @@ class RunPoint:
     phase: int
     at: float
     step: float
+    bound: float
     state: CoupledState
     audit: EnergyAudit
     iterations: int

@@ -37,6 +37,9 @@ from fem.step_control import StepController, landed
 #: pressure of 45 % of it presses a node in by 1 % of the local element size.
 SELF_CONTACT_STIFFNESS = 45.0
 SELF_CONTACT_BULK_RATIO = 100.0
+#: Residual relative to the load to which a step is solved with a coefficient of friction that is
+#: then corrected: the correction is larger.
+FIRST_PASS_TOLERANCE = 1e-4
 
 
 def coupled_model(case: Case) -> CoupledModel:
@@ -64,6 +67,7 @@ def coupled_model(case: Case) -> CoupledModel:
         mean_pressure=case.loading.mean_pressure_N_per_mm2,
         friction_passes=solver.friction_passes,
         options=newton.NewtonOptions(iterations_max=solver.newton_iterations_max),
+        first_merit=FIRST_PASS_TOLERANCE / solver.tolerance,
         self_contact=self_contact_of(case, mesh),
     )
 
@@ -93,6 +97,7 @@ class _Run:
     ) -> None:
         self.case, self.progress, self.checkpoint = case, progress, checkpoint
         self.started = time.perf_counter()
+        self.solver_seconds_before = 0.0
         self.model = coupled_model(case)
         self.recorder = Recorder(case, self.model)
         self.state = self.model.initial_state()
@@ -101,17 +106,27 @@ class _Run:
         self.log = [f"{case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
                     f"{len(self.model.mechanics.mesh.cells)} elements"]  # fmt: skip
         self.snapshot_distances = snapshots_due(case)
-        self.point = self._point(-1, 0.0, 0.0)
+        self.point = self._point(-1, 0.0, 0.0, np.inf)
 
     @property
     def wall(self) -> float:
         """Time spent on the run, that before an interruption included [s]."""
         return time.perf_counter() - self.started
 
-    def _point(self, phase: int, at: float, step: float) -> RunPoint:
+    @property
+    def solver_seconds(self) -> float:
+        """Time spent in sparse factorisations and solves, of mechanics and heat [s]."""
+        model = self.model
+        return (
+            self.solver_seconds_before
+            + model.mechanics.solver.seconds
+            + model.heat.block.solver_seconds
+        )
+
+    def _point(self, phase: int, at: float, step: float, bound: float) -> RunPoint:
         recorder = self.recorder
         return RunPoint(
-            phase=phase, at=at, step=step, state=self.state, audit=self.audit,
+            phase=phase, at=at, step=step, bound=bound, state=self.state, audit=self.audit,
             iterations=self.iterations, rejected=self.rejected, smallest_J=recorder.smallest_J,
             rows=len(recorder.rows), snapshots=len(recorder.snapshots), log=len(self.log),
         )  # fmt: skip
@@ -122,7 +137,7 @@ class _Run:
         records = Records(
             history=columns(recorder.rows[: point.rows]),
             snapshots=recorder.snapshots[: point.snapshots], log=self.log[: point.log],
-            wall_s=self.wall, solver_s=self.model.mechanics.solver.seconds,
+            wall_s=self.wall, solver_s=self.solver_seconds,
         )  # fmt: skip
         return RunRecord(point=point, records=records)
 
@@ -137,7 +152,7 @@ class _Run:
         self.snapshot_distances = snapshots_due(self.case, distance)
         self.log = [*records.log, f"resumed after {point.rows} steps, {distance:.6g} mm"]
         self.started -= records.wall_s
-        self.model.mechanics.solver.seconds += records.solver_s
+        self.solver_seconds_before = records.solver_s
 
     def run(self) -> Outcome:
         """Go through all phases; the outcome says whether the end was reached."""
@@ -154,9 +169,9 @@ class _Run:
         if number < self.point.phase:
             return Outcome(status=OK)
         control = StepController(step_max=phase.step_max, step_min=phase.step_min)
-        step, at = phase.step_initial, 0.0
+        step, at, bound = phase.step_initial, 0.0, np.inf
         if number == self.point.phase:
-            step, at = self.point.step, self.point.at
+            step, at, bound = self.point.step, self.point.at, self.point.bound
         while at < phase.end:
             length = landed(at, step, phase.end)
             stop = phase.end if length == phase.end - at else at + length
@@ -165,15 +180,16 @@ class _Run:
             if isinstance(attempt, AcceptedStep):
                 at = stop
                 self._accept(attempt, phase, at)
-                step = max(control.accepted(length, attempt.hardest_pass), min(step, length))
-                self.point = self._point(number, at, step)
+                bound *= control.recovery
+                step = control.accepted(length, attempt.hardest_pass, bound)
+                self.point = self._point(number, at, step, bound)
                 self._report()
                 continue
             self.rejected += 1
             self.log.append(
                 f"{phase.name} {at:.6g}: step {length:.3g} rejected, {attempt.failure.value}"
             )
-            step = control.rejected(length)
+            step, bound = control.rejected(length), control.caution * length
             if control.exhausted(step):
                 unit = " mm" if phase.slides else " of the load"
                 return failed(attempt.failure, attempt.detail, f"{phase.name} {at:.4g}{unit}")
@@ -288,7 +304,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "friction_lag_error": largest(history, "friction_lag_error"),
         "largest_self_penetration": largest(history, "self_contact_penetration"),
         "min_J": run.recorder.smallest_J,
-        "solver_s": mechanics.solver.seconds,
+        "solver_s": run.solver_seconds,
         "program_version": program_version(),
     }
     return summary

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from scipy.sparse import csc_matrix
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+IndexArray = NDArray[np.int32]
 
 
 @dataclass(frozen=True)
@@ -30,16 +32,14 @@ class SparsePattern:
     """
 
     size: int
-    indices: IntArray
-    indptr: IntArray
+    indices: IndexArray
+    indptr: IndexArray
     slots: IntArray
 
     @classmethod
-    def from_elements(cls, element_dofs: IntArray, size: int) -> SparsePattern:
-        """Pattern of elements with the equation numbers `element_dofs` (ne, k); < 0 is dropped."""
-        k = element_dofs.shape[1]
-        rows = np.repeat(element_dofs, k, axis=1).ravel()
-        columns = np.tile(element_dofs, (1, k)).ravel()
+    def from_entries(cls, rows: IntArray, columns: IntArray, size: int) -> SparsePattern:
+        """Pattern of element entries with these row and column numbers; < 0 is dropped."""
+        rows, columns = rows.ravel(), columns.ravel()
         kept = (rows >= 0) & (columns >= 0)
         key = columns[kept] * size + rows[kept]
         diagonal = np.arange(size) * (size + 1)
@@ -47,15 +47,21 @@ class SparsePattern:
         slots = np.full(rows.size, unique.size)
         slots[kept] = np.searchsorted(unique, key)
         indptr = np.searchsorted(unique // size, np.arange(size + 1))
-        return cls(size, unique % size, indptr, slots)
+        # 32-bit, as the solver needs them: else every matrix would convert them again.
+        return cls(size, (unique % size).astype(np.int32), indptr.astype(np.int32), slots)
 
     @property
     def nnz(self) -> int:
         """Number of stored entries."""
         return int(self.indices.size)
 
+    @cached_property
+    def columns(self) -> IntArray:
+        """Column number of every stored entry."""
+        return np.repeat(np.arange(self.size), np.diff(self.indptr))
+
     def sum(self, element_matrices: FloatArray) -> FloatArray:
-        """Data array of the assembled matrix from (ne, k, k) element matrices."""
+        """Data array of the assembled matrix from element entries in the order of the pattern."""
         return summed(self.slots, element_matrices.ravel(), self.nnz + 1)[: self.nnz]
 
     def matrix(self, data: FloatArray) -> csc_matrix:
@@ -66,8 +72,7 @@ class SparsePattern:
 
     def diagonal_slots(self) -> IntArray:
         """Positions of the diagonal entries in the data array, (size,)."""
-        columns = np.repeat(np.arange(self.size), np.diff(self.indptr))
-        return np.flatnonzero(columns == self.indices)
+        return np.flatnonzero(self.columns == self.indices)
 
     def row_slots(self, rows: IntArray) -> tuple[IntArray, IntArray]:
         """Positions of all entries of the given rows, and the number of the row in `rows` of each.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,23 +18,28 @@ class StepController:
         Up to `easy` iterations the next step grows, above `hard` it shrinks.
     growth, shrink, cut : float
         Factors after an easy, a hard and a failed step.
+    caution, recovery : float
+        Steps after a failed one stay below `caution` times its length, a bound that rises by
+        `recovery` with each accepted step: what made a step fail is seldom gone after the next.
     """
 
     step_max: float
     step_min: float
-    easy: int = 7
+    easy: int = 9
     hard: int = 14
     growth: float = 1.5
     shrink: float = 0.75
-    cut: float = 0.35
+    cut: float = 0.5
+    caution: float = 0.7
+    recovery: float = 1.15
 
-    def accepted(self, step: float, iterations: int) -> float:
-        """Step after an accepted one."""
+    def accepted(self, step: float, iterations: int, bound: float = inf) -> float:
+        """Step after an accepted one, below the bound that a failed step has left."""
         if iterations <= self.easy:
             step *= self.growth
         elif iterations > self.hard:
             step *= self.shrink
-        return min(max(step, self.step_min), self.step_max)
+        return min(max(min(step, bound), self.step_min), self.step_max)
 
     def rejected(self, step: float) -> float:
         """Step after a failed one; below `step_min` the run has to end."""

@@ -16,9 +16,9 @@ from scipy.sparse import csc_matrix, diags, identity, kron
 from scipy.sparse.linalg import splu
 
 from fem import newton
+from fem.direct_solver import SYMMETRIC
 from fem.elements import Q1P0Elements
 from fem.heat import HeatLoad, HeatModel
-from fem.linear_solver import SYMMETRIC
 from fem.mechanics import BlockMechanics
 from fem.mesh import NAMED_GRADINGS, BlockMesh, block_mesh
 from fem.rigid_block import bottom_lengths

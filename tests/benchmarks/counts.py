@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
 
-from fem import Case, heat_block, linear_solver, simulate
+from fem import Case, direct_solver, heat_block, simulate
 from fem.results import Result
 from tests.benchmarks.measured_run import introductory
 
@@ -34,9 +34,9 @@ def counted_factorisations() -> Iterator[Counts]:
 
         return counted
 
-    mechanical = counting("mechanical_factorisations", linear_solver.splu)
+    mechanical = counting("mechanical_factorisations", direct_solver.splu)
     thermal = counting("heat_factorisations", heat_block.splu)
-    with patch.object(linear_solver, "splu", mechanical), patch.object(heat_block, "splu", thermal):
+    with patch.object(direct_solver, "splu", mechanical), patch.object(heat_block, "splu", thermal):
         yield counts
 
 

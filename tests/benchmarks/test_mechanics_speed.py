@@ -7,8 +7,8 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from fem import Case, newton, simulate
+from fem.direct_solver import SYMMETRIC
 from fem.elements import Q1P0Elements
-from fem.linear_solver import SYMMETRIC
 from fem.mechanics import BlockMechanics
 from fem.mesh import NAMED_GRADINGS, block_mesh
 from tests.fem.contact_steps import YEOH, load_of, pressed

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
-from fem.elements import Q1P0Elements
+from fem.elements import Q1P0Elements, tangent_entries
 from fem.mesh import Grading, block_mesh
 
 UNIFORM = 1e9
@@ -47,7 +47,7 @@ def consistent_pressure(elements, u):
 def global_forces(elements, u, viscosity=None):
     """Internal forces of all nodes (n, 2) [N/mm]."""
     kin = elements.kinematics(u)
-    forces = elements.forces(u, consistent_pressure(elements, u), kin, viscosity)
+    forces = elements.forces(consistent_pressure(elements, u), kin, viscosity)
     total = np.zeros(2 * len(u))
     np.add.at(total, elements.dofs.ravel(), forces.residual.ravel())
     return total.reshape(-1, 2)
@@ -55,8 +55,7 @@ def global_forces(elements, u, viscosity=None):
 
 def assembled(elements, K_e):
     """Sparse matrix of element tangents on all dofs."""
-    dofs = elements.dofs
-    rows, columns = np.repeat(dofs, 8, axis=1).ravel(), np.tile(dofs, (1, 8)).ravel()
+    rows, columns = (entry.ravel() for entry in tangent_entries(elements.dofs.reshape(-1, 4, 2)))
     size = 2 * len(elements.mesh.points)
     return coo_matrix((K_e.ravel(), (rows, columns)), shape=(size, size)).tocsc()
 
@@ -64,7 +63,7 @@ def assembled(elements, K_e):
 def global_tangent(elements, u, viscosity=None):
     """Tangent of the internal forces with consistent element pressure, dense."""
     kin = elements.kinematics(u)
-    forces = elements.forces(u, consistent_pressure(elements, u), kin, viscosity)
+    forces = elements.forces(consistent_pressure(elements, u), kin, viscosity)
     return assembled(elements, elements.tangent(forces, viscosity)).toarray()
 
 
@@ -79,7 +78,7 @@ def solve_dirichlet(elements, u, free, load=0.0, iterations=30, tolerance=1e-10)
     p = np.zeros(len(elements.cells))
     for _ in range(iterations):
         kin = elements.kinematics(u)
-        forces = elements.forces(u, p, kin)
+        forces = elements.forces(p, kin)
         total = np.zeros(2 * len(u))
         np.add.at(total, elements.dofs.ravel(), forces.residual.ravel())
         residual = (total.reshape(-1, 2) - load).ravel()[chosen]

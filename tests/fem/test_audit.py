@@ -7,6 +7,7 @@ import pytest
 
 from fem import Case
 from fem.audit import EnergyAudit, audited
+from fem.case_sections import Solver
 from fem.coupling import AcceptedStep
 from fem.programme import programme
 from fem.simulate import coupled_model
@@ -71,7 +72,8 @@ def test_elastic_pressing_dissipates_nothing():
     audit = pressing_run(4, inertia=False, viscous_distance_mm=0.0)
     assert audit.viscous == 0.0
     assert audit.kinetic == 0.0
-    assert abs(audit.friction) < 1e-12
+    # Without friction the shear forces vanish to the tolerance of the forces.
+    assert abs(audit.friction) < Solver().tolerance * audit.work_in
     assert audit.work_in > 0.0
 
 

@@ -1,110 +1,124 @@
-"""Direct solution: residual, fallback to pivoting, singular systems."""
+"""Solution with kept factors: accuracy, when they are renewed, and the choice of the solver."""
 
 import numpy as np
 import pytest
-from scipy.sparse import csc_matrix, diags, kron, random
-from scipy.sparse.linalg import splu
+from scipy.sparse import csc_matrix, diags
+from scipy.sparse.linalg import LinearOperator, gmres
 
 from fem import linear_solver as module
+from fem.direct_solver import SingularSystemError, SuperLUSolver
 from fem.linear_solver import (
     PARDISO_PAYS,
-    SingularSystemError,
-    SuperLUSolver,
-    fill_reducing_order,
+    KeptFactorsSolver,
+    conjugate_residuals,
     linear_solver,
 )
+from tests.fem.test_direct_solver import dominant
+
+SIZE = 200
 
 
-def dominant(size=200, seed=1):
-    """Unsymmetric matrix of symmetric pattern with a strong diagonal."""
-    rng = np.random.default_rng(seed)
-    pattern = random(size, size, 0.02, random_state=rng)
-    A = (pattern + pattern.T).tocsc()
-    A.data *= rng.uniform(0.5, 1.5, A.nnz)
-    return (A + diags(np.full(size, 10.0))).tocsc()
+def with_changed_rows(A, count, seed=4):
+    """The matrix with some rows replaced by those of the identity, as closing contacts do."""
+    rows = np.random.default_rng(seed).choice(SIZE, count, replace=False)
+    kept = np.ones(SIZE)
+    kept[rows] = 0.0
+    return (diags(kept) @ A + diags(1.0 - kept)).tocsc()
 
 
-def test_solution_has_a_residual_at_rounding():
-    A, b = dominant(), np.random.default_rng(2).normal(size=200)
-    x = SuperLUSolver().solve(A, b)
-    assert np.abs(A @ x - b).max() < 1e-12
+def right_hand_side(seed=5):
+    return np.random.default_rng(seed).normal(size=SIZE)
 
 
-def test_the_right_hand_side_and_the_matrix_are_not_changed():
-    A, b = dominant(), np.ones(200)
-    data = A.data.copy()
-    SuperLUSolver().solve(A, b)
-    np.testing.assert_array_equal(A.data, data)
-    np.testing.assert_array_equal(b, np.ones(200))
+def relative_residual(A, x, b):
+    return np.linalg.norm(A @ x - b) / np.linalg.norm(b)
 
 
-def test_a_zero_diagonal_is_solved_all_the_same():
-    """A saddle point has no diagonal pivots; symmetric mode alone would break down."""
-    A = csc_matrix(np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 2.0], [0.0, 3.0, 1.0]]))
-    b = np.array([1.0, 2.0, 3.0])
-    x = SuperLUSolver().solve(A, b)
-    np.testing.assert_allclose(A @ x, b, atol=1e-13)
+def test_exact_factors_take_one_iteration():
+    A, b = dominant(), right_hand_side()
+    direct = SuperLUSolver()
+    direct.solve(A, b)
+    x, count = conjugate_residuals(A, b, direct.solve_again, tolerance=1e-10, iterations_max=5)
+    assert count == 1
+    assert relative_residual(A, x, b) < 1e-10
 
 
-def test_growth_of_the_symmetric_mode_is_noticed_and_mended():
-    """Wilkinson's matrix with small diagonal pivots: each step multiplies the entries by 900."""
-    n = 12
-    A = np.tril(-np.ones((n, n)), -1) + 0.0011 * np.eye(n)
-    A[:, -1] = 1.0
-    b = np.random.default_rng(5).normal(size=n)
-    solver = SuperLUSolver()
-    x = solver.solve(csc_matrix(A), b)
-    np.testing.assert_allclose(A @ x, b, atol=1e-7)
-    assert solver.fallbacks == 1
+@pytest.mark.parametrize("changed", [1, 3, 6])
+def test_each_changed_row_costs_at_most_one_more_iteration(changed):
+    """A preconditioned matrix that differs from one in k rows has at most k + 1 eigenvalues."""
+    A, b = dominant(), right_hand_side()
+    direct = SuperLUSolver()
+    direct.solve(A, b)
+    B = with_changed_rows(A, changed)
+    x, count = conjugate_residuals(B, b, direct.solve_again, tolerance=1e-9, iterations_max=20)
+    assert count <= changed + 1
+    assert relative_residual(B, x, b) < 1e-9
 
 
-@pytest.mark.parametrize(
-    "matrix",
-    [np.zeros((3, 3)), np.ones((3, 3)), np.diag([1.0, 1.0, 0.0])],
-    ids=["zero", "rank-one", "empty-row"],
-)
-def test_a_singular_matrix_is_named_so(matrix):
-    with pytest.raises(SingularSystemError, match="singular"):
-        SuperLUSolver().solve(csc_matrix(matrix), np.array([1.0, 2.0, 3.0]))
+def test_iterations_and_solution_are_those_of_scipys_gmres():
+    A, b = dominant(), right_hand_side()
+    direct = SuperLUSolver()
+    direct.solve(dominant(seed=2), b)
+    ours, count = conjugate_residuals(A, b, direct.solve_again, tolerance=1e-6, iterations_max=60)
+    right = LinearOperator(A.shape, matvec=lambda v: A @ direct.solve_again(v))
+    seen = []
+    y, info = gmres(right, b, rtol=1e-6, atol=0.0, restart=60, callback=seen.append,
+                    callback_type="pr_norm")  # fmt: skip
+    assert info == 0
+    assert abs(count - len(seen)) <= 1
+    np.testing.assert_allclose(ours, direct.solve_again(y), atol=1e-5 * np.abs(ours).max())
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
-def test_values_that_are_not_finite_are_refused(bad):
-    A, b = dominant(), np.ones(200)
-    b[3] = bad
+def test_too_many_iterations_give_no_solution():
+    A, b = dominant(), right_hand_side()
+    x, count = conjugate_residuals(A, b, lambda r: r, tolerance=1e-14, iterations_max=3)
+    assert x is None
+    assert count == 3
+
+
+def test_one_factorisation_serves_systems_that_differ_in_few_rows():
+    solver, A, b = KeptFactorsSolver(SuperLUSolver()), dominant(), right_hand_side()
+    for changed in range(6):
+        B = with_changed_rows(A, changed)
+        assert relative_residual(B, solver.solve(B, b), b) <= solver.relative_residual
+    assert solver.factorisations == 1
+    assert 0 < solver.iterations < 40
+
+
+def test_a_system_too_far_from_the_factors_is_factorised():
+    solver, b = KeptFactorsSolver(SuperLUSolver()), right_hand_side()
+    solver.solve(csc_matrix(diags(np.ones(SIZE))), b)
+    A = csc_matrix(diags(np.linspace(1.0, 1e4, SIZE)))
+    assert relative_residual(A, solver.solve(A, b), b) < 1e-12
+    assert solver.factorisations == 2
+
+
+def test_aged_factors_are_not_used_again():
+    A, b = dominant(), right_hand_side()
+    solver = KeptFactorsSolver(SuperLUSolver(), aged=2)
+    solver.solve(A, b)
+    B = with_changed_rows(A, 6)
+    solver.solve(B, b)
+    assert solver.factorisations == 1
+    solver.solve(B, b)
+    assert solver.factorisations == 2
+
+
+def test_after_forgetting_the_solution_depends_on_nothing_before():
+    A, b = dominant(), right_hand_side()
+    used, fresh = KeptFactorsSolver(SuperLUSolver()), KeptFactorsSolver(SuperLUSolver())
+    used.solve(with_changed_rows(A, 5), b)
+    used.solve(A, b)
+    used.forget()
+    np.testing.assert_array_equal(used.solve(A, b), fresh.solve(A, b))
+
+
+def test_a_singular_system_is_named_with_kept_factors_too():
+    solver, A = KeptFactorsSolver(SuperLUSolver()), dominant()
+    solver.solve(A, right_hand_side())
+    A.data[:] = np.nan
     with pytest.raises(SingularSystemError, match="finite"):
-        SuperLUSolver().solve(A, b)
-    A.data[5] = bad
-    with pytest.raises(SingularSystemError, match="finite"):
-        SuperLUSolver().solve(A, np.ones(200))
-
-
-def test_the_error_is_an_arithmetic_error_as_newton_expects():
-    assert issubclass(SingularSystemError, ArithmeticError)
-
-
-def test_work_is_counted():
-    solver = SuperLUSolver()
-    solver.solve(dominant(), np.ones(200))
-    solver.solve(dominant(), np.ones(200))
-    assert solver.factorisations >= 2
-    assert solver.seconds > 0.0
-
-
-def test_fill_reducing_order_is_a_permutation_that_reduces_the_fill():
-    n = 20
-    line = diags([-1.0, 2.2, -1.0], [-1, 0, 1], shape=(n, n))
-    identity = diags([1.0], [0], shape=(n, n))
-    grid = (kron(line, identity) + kron(identity, line)).tocsc()
-    shuffled = np.random.default_rng(6).permutation(n * n)
-    A = grid[shuffled][:, shuffled].tocsc()
-    order = fill_reducing_order(A)
-    assert sorted(order) == list(range(n * n))
-
-    def fill(matrix):
-        return splu(matrix.tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.0).L.nnz
-
-    assert fill(A[order][:, order]) < 0.5 * fill(A)
+        solver.solve(A, right_hand_side())
 
 
 @pytest.mark.parametrize(
@@ -122,7 +136,7 @@ def test_pardiso_is_taken_where_it_is_installed_and_pays(
 ):
     monkeypatch.setattr(module, "pardiso_available", lambda: installed)
     monkeypatch.setattr(module.PardisoSolver, "__post_init__", lambda self: None)
-    assert type(linear_solver(name, unknowns)).__name__ == expected
+    assert type(linear_solver(name, unknowns).direct).__name__ == expected
 
 
 def test_pardiso_without_its_package_says_what_to_install(monkeypatch):

@@ -134,8 +134,21 @@ def test_a_cycle_of_states_without_progress_is_given_up_early_and_named():
 
 
 def test_the_same_jumps_in_a_settled_state_are_no_cycle():
-    result = solve(root_of_both_signs(state=np.sign), 1.0, NewtonOptions())
+    options = NewtonOptions(patience=99)
+    result = solve(root_of_both_signs(state=np.sign), 1.0, options)
     assert result.failure is Failure.ITERATIONS
+
+
+def test_a_residual_that_stops_falling_is_given_up_and_named():
+    result = solve(root_of_both_signs(), 1.0, NewtonOptions(patience=4))
+    assert result.failure is Failure.STALLED
+    assert result.iterations == 6
+
+
+def test_patience_counts_from_the_last_smallest_residual():
+    """Each Newton step on x^3 leaves 8/27 of the residual, so there is never a pause."""
+    problem = Scalar(lambda x: x**3, lambda x: 3.0 * x**2)
+    assert solve(problem, 1.0, NewtonOptions(iterations_max=99, patience=1)).converged
 
 
 def test_growth_beyond_the_bound_is_cut_and_named_if_it_stays():

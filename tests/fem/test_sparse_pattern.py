@@ -25,15 +25,21 @@ def random_matrices(count):
     return np.random.default_rng(4).normal(size=(count, 8, 8))
 
 
+def entries(equations):
+    """Row and column numbers of the entries of element matrices, (ne k k) each."""
+    k = equations.shape[1]
+    return np.repeat(equations, k, axis=1).ravel(), np.tile(equations, (1, k)).ravel()
+
+
 def coordinate_sum(equations, K, size):
-    rows, columns = np.repeat(equations, 8, axis=1).ravel(), np.tile(equations, (1, 8)).ravel()
+    rows, columns = entries(equations)
     kept = (rows >= 0) & (columns >= 0)
     return coo_matrix((K.ravel()[kept], (rows[kept], columns[kept])), shape=(size, size)).toarray()
 
 
 def test_sum_equals_scipys_coordinate_format(numbering):
     equations, size = numbering
-    pattern = SparsePattern.from_elements(equations, size)
+    pattern = SparsePattern.from_entries(*entries(equations), size)
     K = random_matrices(len(equations))
     ours = pattern.matrix(pattern.sum(K)).toarray()
     np.testing.assert_allclose(ours, coordinate_sum(equations, K, size), rtol=0.0, atol=1e-13)
@@ -41,7 +47,7 @@ def test_sum_equals_scipys_coordinate_format(numbering):
 
 def test_rows_are_sorted_and_unique_within_each_column(numbering):
     equations, size = numbering
-    pattern = SparsePattern.from_elements(equations, size)
+    pattern = SparsePattern.from_entries(*entries(equations), size)
     for column in range(size):
         rows = pattern.indices[pattern.indptr[column] : pattern.indptr[column + 1]]
         assert (np.diff(rows) > 0).all()
@@ -50,7 +56,7 @@ def test_rows_are_sorted_and_unique_within_each_column(numbering):
 
 def test_diagonal_slots_address_the_diagonal(numbering):
     equations, size = numbering
-    pattern = SparsePattern.from_elements(equations, size)
+    pattern = SparsePattern.from_entries(*entries(equations), size)
     data = np.zeros(pattern.nnz)
     data[pattern.diagonal_slots()] = np.arange(1.0, size + 1.0)
     np.testing.assert_array_equal(
@@ -59,7 +65,7 @@ def test_diagonal_slots_address_the_diagonal(numbering):
 
 
 def test_the_diagonal_is_stored_even_where_no_element_has_it():
-    pattern = SparsePattern.from_elements(np.array([[0, 2]]), 4)
+    pattern = SparsePattern.from_entries(*entries(np.array([[0, 2]])), 4)
     data = np.zeros(pattern.nnz)
     data[pattern.diagonal_slots()] = 1.0
     np.testing.assert_array_equal(pattern.matrix(data).toarray(), np.eye(4))
@@ -67,7 +73,7 @@ def test_the_diagonal_is_stored_even_where_no_element_has_it():
 
 def test_row_slots_allow_row_operations(numbering):
     equations, size = numbering
-    pattern = SparsePattern.from_elements(equations, size)
+    pattern = SparsePattern.from_entries(*entries(equations), size)
     data = pattern.sum(random_matrices(len(equations)))
     before = pattern.matrix(data.copy()).toarray()
     rows = np.array([7, 2, 11])
@@ -83,7 +89,7 @@ def test_row_slots_allow_row_operations(numbering):
 def test_slots_of_two_rows_of_a_node_pair_up(numbering):
     """The row operation of friction adds one row of a node to the other."""
     equations, size = numbering
-    pattern = SparsePattern.from_elements(equations, size)
+    pattern = SparsePattern.from_entries(*entries(equations), size)
     data = pattern.sum(random_matrices(len(equations)))
     element = equations[7].reshape(4, 2)
     pairs = element[(element >= 0).all(axis=1)]
