@@ -1,33 +1,27 @@
 """Solution of the linear systems of Newton's method: a factorisation serves several of them.
 
 Between two Newton iterations of one step few rows of the tangent change much: those of nodes that
-change their contact status, and some around the most strained elements. Generalised conjugate
-residuals [1]_ (in exact arithmetic GMRES [2]_), preconditioned with the factors of an earlier
-iteration, then need about ten iterations. Each costs a solution with existing factors: 1/12 of a
-factorisation on the default mesh, 1/25 with 20,000 elements.
-
-References
-----------
-.. [1] Eisenstat, S. C., Elman, H. C., Schultz, M. H., SIAM J. Numer. Anal. 20 (1983) 345-357.
-.. [2] Saad, Y., Schultz, M. H., SIAM J. Sci. Stat. Comput. 7 (1986) 856-869.
+change their contact status, and some around the most strained elements. Conjugate residuals,
+preconditioned with the factors of an earlier iteration, then need up to ten iterations. Each costs
+a solution with existing factors, which is about 1/15 of a factorisation.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 from scipy.sparse import csc_matrix
 
+from fem.conjugate_residuals import conjugate_residuals
 from fem.direct_solver import (
     DirectSolver,
     LinearSolver,
     PardisoSolver,
+    SinglePrecisionSolver,
     SuperLUSolver,
     pardiso_available,
 )
@@ -37,6 +31,9 @@ FloatArray = NDArray[np.float64]
 #: Unknowns from which Pardiso is the faster one: with one thread its time was 1.5 times that of
 #: SuperLU with 6,000 unknowns (the default mesh) and 0.6 times with 40,000.
 PARDISO_PAYS = 20_000
+#: Unknowns from which single precision pays: factorisation and solution take 0.7 times as long with
+#: 40,000, as long with 6,000.
+SINGLE_PAYS = 12_000
 
 
 @dataclass
@@ -107,58 +104,6 @@ class KeptFactorsSolver:
         return x
 
 
-def conjugate_residuals(
-    matrix: csc_matrix,
-    rhs: FloatArray,
-    approximately: Callable[[FloatArray], FloatArray],
-    *,
-    tolerance: float,
-    iterations_max: int,
-) -> tuple[FloatArray | None, int]:
-    """Solve ``matrix x = rhs`` by generalised conjugate residuals.
-
-    Each iteration adds the approximate solution for the present residual to the space in which
-    the residual is made smallest.
-
-    Parameters
-    ----------
-    matrix : sparse matrix
-        Matrix A, (n, n).
-    rhs : (n,) float array
-        Right-hand side b.
-    approximately : callable
-        Approximate solution of the system for a given right-hand side (the preconditioner).
-    tolerance : float
-        Accepted ``|A x - b| / |b|`` (Euclidean norms).
-    iterations_max : int
-        Allowed iterations.
-
-    Returns
-    -------
-    (n,) float array or None
-        Solution; None if there is none within the allowed iterations.
-    int
-        Iterations made.
-    """
-    Z, Q = np.empty((2, iterations_max, rhs.size))
-    R, c = np.zeros((iterations_max, iterations_max)), np.zeros(iterations_max)
-    r, bound = rhs.copy(), tolerance * np.linalg.norm(rhs)
-    for k in range(iterations_max):
-        Z[k] = approximately(r)
-        w = matrix @ Z[k]
-        R[:k, k] = Q[:k] @ w
-        w -= R[:k, k] @ Q[:k]
-        R[k, k] = np.linalg.norm(w)
-        if not R[k, k] > 0.0:
-            return None, k + 1
-        Q[k] = w / R[k, k]
-        c[k] = Q[k] @ r
-        r -= c[k] * Q[k]
-        if np.linalg.norm(r) <= bound:
-            return solve_triangular(R[: k + 1, : k + 1], c[: k + 1]) @ Z[: k + 1], k + 1
-    return None, iterations_max
-
-
 def linear_solver(name: Literal["auto", "superlu", "pardiso"], unknowns: int) -> LinearSolver:
     """Solver by name; "auto" takes Pardiso where it is installed and pays, else SuperLU.
 
@@ -175,7 +120,8 @@ def linear_solver(name: Literal["auto", "superlu", "pardiso"], unknowns: int) ->
         If pardiso is asked for and not installed.
     """
     if name == "superlu" or (name == "auto" and not _pardiso_pays(unknowns)):
-        return KeptFactorsSolver(SuperLUSolver())
+        single = unknowns >= SINGLE_PAYS
+        return KeptFactorsSolver(SinglePrecisionSolver() if single else SuperLUSolver())
     if not pardiso_available():
         raise ValueError('linear_solver = "pardiso" needs pypardiso: pip install treadfem[fast]')
     return KeptFactorsSolver(PardisoSolver())
