@@ -148,7 +148,7 @@ class Solver(Section):
     steps_scale: Positive = Field(1.0, description="factor on all steps; 0.5 halves them [-]")
     linear_solver: Literal["auto", "superlu", "pardiso"] = Field(
         "auto",
-        description='"superlu", "pardiso" (extra "fast"), or "auto": Pardiso where it pays',
+        description='"superlu", "pardiso" (extra "fast"), or "auto": the faster, which is SuperLU',
     )
 
     @field_validator("linear_solver")

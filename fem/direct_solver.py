@@ -188,11 +188,12 @@ class SinglePrecisionSolver:
     def _refined(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray | None:
         """Solution with single precision factors; None if they are too rough."""
         self.forget()
-        single = matrix.astype(np.float32)
-        if not np.isfinite(single.data).all():
+        # Values beyond its range, or not finite, are left to double precision to judge.
+        if not np.abs(matrix.data).max(initial=0.0) < np.finfo(np.float32).max:
             return None
         self._count += 1
         try:
+            single = matrix.astype(np.float32)
             self._factors = splu(single, permc_spec="NATURAL", **SYMMETRIC)
         except RuntimeError:
             return None

@@ -2,23 +2,16 @@
 
 import numpy as np
 import pytest
-from scipy.sparse import csc_matrix, diags, random
+from scipy.sparse import csc_matrix, diags
 
 from fem.direct_solver import (
     PardisoSolver,
+    SinglePrecisionSolver,
     SingularSystemError,
     SuperLUSolver,
     pardiso_available,
 )
-
-
-def dominant(size=200, seed=1):
-    """Unsymmetric matrix of symmetric pattern with a strong diagonal."""
-    rng = np.random.default_rng(seed)
-    pattern = random(size, size, 0.02, random_state=rng)
-    A = (pattern + pattern.T).tocsc()
-    A.data *= rng.uniform(0.5, 1.5, A.nnz)
-    return (A + diags(np.full(size, 10.0))).tocsc()
+from tests.fem.linear_systems import dominant
 
 
 def test_solution_has_a_residual_at_rounding():
@@ -98,6 +91,46 @@ def test_kept_factors_solve_again_and_are_dropped_on_request():
     solver.forget()
     with pytest.raises(AttributeError):
         solver.solve_again(b)
+
+
+def test_single_precision_is_refined_to_the_accuracy_asked_for():
+    A, b = dominant(), np.random.default_rng(3).normal(size=200)
+    solver = SinglePrecisionSolver(relative_residual=1e-12)
+    x = solver.solve(A, b)
+    assert np.linalg.norm(A @ x - b) <= 1e-12 * np.linalg.norm(b)
+    assert (solver.factorisations, solver.fallbacks) == (1, 0)
+
+
+@pytest.mark.parametrize("size", [1e-60, 1e60])
+def test_the_small_range_of_single_precision_does_not_bound_the_right_hand_side(size):
+    A, b = dominant(), size * np.random.default_rng(3).normal(size=200)
+    solver = SinglePrecisionSolver()
+    x = solver.solve(A, b)
+    assert np.linalg.norm(A @ x - b) <= 1e-6 * np.linalg.norm(b)
+    assert solver.fallbacks == 0
+    np.testing.assert_allclose(A @ solver.solve_again(b), b, atol=1e-4 * np.abs(b).max())
+
+
+def test_a_system_too_hard_for_single_precision_is_solved_in_double():
+    """The Hilbert matrix of order 9 has a condition number of 5e11."""
+    A = csc_matrix(1.0 / (np.arange(9)[:, None] + np.arange(9) + 1.0))
+    b = np.ones(9)
+    solver = SinglePrecisionSolver(relative_residual=1e-12, refinements_max=2)
+    x = solver.solve(A, b)
+    assert np.abs(A @ x - b).max() < 1e-8
+    assert solver.fallbacks == 1
+    np.testing.assert_allclose(A @ solver.solve_again(b), b, atol=1e-3)
+
+
+@pytest.mark.parametrize("bad", [0.0, np.nan, 1e300])
+def test_single_precision_names_what_double_precision_names(bad):
+    A = dominant()
+    A.data[:] = bad
+    if bad == 1e300:
+        assert SinglePrecisionSolver().solve(A + diags(np.full(200, 2e301)), np.ones(200)).all()
+        return
+    with pytest.raises(SingularSystemError):
+        SinglePrecisionSolver().solve(A, np.ones(200))
 
 
 @pytest.mark.skipif(not pardiso_available(), reason="needs the extra fast")

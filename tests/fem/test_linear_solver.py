@@ -3,77 +3,21 @@
 import numpy as np
 import pytest
 from scipy.sparse import csc_matrix, diags
-from scipy.sparse.linalg import LinearOperator, gmres
 
 from fem import linear_solver as module
 from fem.direct_solver import SingularSystemError, SuperLUSolver
 from fem.linear_solver import (
-    PARDISO_PAYS,
+    SINGLE_PAYS,
     KeptFactorsSolver,
-    conjugate_residuals,
     linear_solver,
 )
-from tests.fem.test_direct_solver import dominant
-
-SIZE = 200
-
-
-def with_changed_rows(A, count, seed=4):
-    """The matrix with some rows replaced by those of the identity, as closing contacts do."""
-    rows = np.random.default_rng(seed).choice(SIZE, count, replace=False)
-    kept = np.ones(SIZE)
-    kept[rows] = 0.0
-    return (diags(kept) @ A + diags(1.0 - kept)).tocsc()
-
-
-def right_hand_side(seed=5):
-    return np.random.default_rng(seed).normal(size=SIZE)
-
-
-def relative_residual(A, x, b):
-    return np.linalg.norm(A @ x - b) / np.linalg.norm(b)
-
-
-def test_exact_factors_take_one_iteration():
-    A, b = dominant(), right_hand_side()
-    direct = SuperLUSolver()
-    direct.solve(A, b)
-    x, count = conjugate_residuals(A, b, direct.solve_again, tolerance=1e-10, iterations_max=5)
-    assert count == 1
-    assert relative_residual(A, x, b) < 1e-10
-
-
-@pytest.mark.parametrize("changed", [1, 3, 6])
-def test_each_changed_row_costs_at_most_one_more_iteration(changed):
-    """A preconditioned matrix that differs from one in k rows has at most k + 1 eigenvalues."""
-    A, b = dominant(), right_hand_side()
-    direct = SuperLUSolver()
-    direct.solve(A, b)
-    B = with_changed_rows(A, changed)
-    x, count = conjugate_residuals(B, b, direct.solve_again, tolerance=1e-9, iterations_max=20)
-    assert count <= changed + 1
-    assert relative_residual(B, x, b) < 1e-9
-
-
-def test_iterations_and_solution_are_those_of_scipys_gmres():
-    A, b = dominant(), right_hand_side()
-    direct = SuperLUSolver()
-    direct.solve(dominant(seed=2), b)
-    ours, count = conjugate_residuals(A, b, direct.solve_again, tolerance=1e-6, iterations_max=60)
-    right = LinearOperator(A.shape, matvec=lambda v: A @ direct.solve_again(v))
-    seen = []
-    y, info = gmres(right, b, rtol=1e-6, atol=0.0, restart=60, callback=seen.append,
-                    callback_type="pr_norm")  # fmt: skip
-    assert info == 0
-    assert abs(count - len(seen)) <= 1
-    np.testing.assert_allclose(ours, direct.solve_again(y), atol=1e-5 * np.abs(ours).max())
-
-
-def test_too_many_iterations_give_no_solution():
-    A, b = dominant(), right_hand_side()
-    x, count = conjugate_residuals(A, b, lambda r: r, tolerance=1e-14, iterations_max=3)
-    assert x is None
-    assert count == 3
+from tests.fem.linear_systems import (
+    SIZE,
+    dominant,
+    relative_residual,
+    right_hand_side,
+    with_changed_rows,
+)
 
 
 def test_one_factorisation_serves_systems_that_differ_in_few_rows():
@@ -122,19 +66,16 @@ def test_a_singular_system_is_named_with_kept_factors_too():
 
 
 @pytest.mark.parametrize(
-    "name, unknowns, installed, expected",
+    "name, unknowns, expected",
     [
-        ("auto", PARDISO_PAYS - 1, True, "SuperLUSolver"),
-        ("auto", PARDISO_PAYS, True, "PardisoSolver"),
-        ("auto", PARDISO_PAYS, False, "SuperLUSolver"),
-        ("superlu", PARDISO_PAYS, True, "SuperLUSolver"),
-        ("pardiso", 10, True, "PardisoSolver"),
+        ("auto", SINGLE_PAYS - 1, "SuperLUSolver"),
+        ("auto", SINGLE_PAYS, "SinglePrecisionSolver"),
+        ("superlu", SINGLE_PAYS, "SinglePrecisionSolver"),
+        ("pardiso", 10, "PardisoSolver"),
     ],
 )
-def test_pardiso_is_taken_where_it_is_installed_and_pays(
-    name, unknowns, installed, expected, monkeypatch
-):
-    monkeypatch.setattr(module, "pardiso_available", lambda: installed)
+def test_solvers_are_chosen_by_name_and_size(name, unknowns, expected, monkeypatch):
+    monkeypatch.setattr(module, "pardiso_available", lambda: True)
     monkeypatch.setattr(module.PardisoSolver, "__post_init__", lambda self: None)
     assert type(linear_solver(name, unknowns).direct).__name__ == expected
 
