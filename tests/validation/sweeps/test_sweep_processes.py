@@ -30,7 +30,7 @@ mesh = {cells_x = 12, cells_y = 5, smallest_x_mm = 0.8, smallest_y_mm = 0.6}
 [loading]
 mean_pressure_N_per_mm2 = 0.25
 velocity_mm_per_s = 300.0
-distance_mm = 2.0
+distance_mm = 6.0
 [output]
 snapshots = 1
 figures = false
