@@ -199,6 +199,10 @@ class CoupledModel:
         Largest number of passes over the friction coefficient in a step.
     options : newton.NewtonOptions
         Limits of the Newton iteration.
+    first_merit : float
+        Merit that suffices in a pass whose friction coefficient is still to be corrected.
+    self_contact : SelfContact, optional
+        Contact of the block with itself; none without it.
     """
 
     def __init__(

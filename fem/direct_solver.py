@@ -14,7 +14,6 @@ References
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from typing import Any, Protocol
@@ -25,6 +24,7 @@ from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
 from fem.conjugate_residuals import conjugate_residuals
+from fem.stopwatch import Stopwatch
 
 FloatArray = NDArray[np.float64]
 
@@ -83,16 +83,18 @@ class SuperLUSolver:
     relative_residual: float = 1e-8
     factorisations: int = field(default=0, init=False)
     fallbacks: int = field(default=0, init=False)
-    seconds: float = field(default=0.0, init=False)
+    _stopwatch: Stopwatch = field(default_factory=Stopwatch, init=False, repr=False)
     _factors: Any = field(default=None, init=False, repr=False)
+
+    @property
+    def seconds(self) -> float:
+        """Time spent in factorisations and solves [s]."""
+        return self._stopwatch.seconds
 
     def solve(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray:
         """Solution of ``matrix x = rhs``; raises `SingularSystemError`."""
-        start = time.perf_counter()
-        try:
+        with self._stopwatch:
             return self._checked(matrix, rhs)
-        finally:
-            self.seconds += time.perf_counter() - start
 
     def solve_again(self, rhs: FloatArray) -> FloatArray:
         """Solution with the factors that `solve` has left, unchecked."""
@@ -147,7 +149,7 @@ class SinglePrecisionSolver:
     refinements_max: int = 6
     fallbacks: int = field(default=0, init=False)
     _count: int = field(default=0, init=False)
-    _seconds: float = field(default=0.0, init=False)
+    _stopwatch: Stopwatch = field(default_factory=Stopwatch, init=False, repr=False)
     _factors: Any = field(default=None, init=False, repr=False)
     _double: SuperLUSolver = field(default_factory=SuperLUSolver, init=False)
 
@@ -159,13 +161,12 @@ class SinglePrecisionSolver:
     @property
     def seconds(self) -> float:
         """Time spent in factorisations and solves [s]."""
-        return self._seconds + self._double.seconds
+        return self._stopwatch.seconds + self._double.seconds
 
     def solve(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray:
         """Solution of ``matrix x = rhs``; raises `SingularSystemError`."""
-        start = time.perf_counter()
-        x = self._refined(matrix, rhs)
-        self._seconds += time.perf_counter() - start
+        with self._stopwatch:
+            x = self._refined(matrix, rhs)
         if x is not None:
             return x
         self.forget()
@@ -217,7 +218,7 @@ class PardisoSolver:
     relative_residual: float = 1e-8
     factorisations: int = field(default=0, init=False)
     fallbacks: int = field(default=0, init=False)
-    seconds: float = field(default=0.0, init=False)
+    _stopwatch: Stopwatch = field(default_factory=Stopwatch, init=False, repr=False)
 
     def __post_init__(self) -> None:
         from pypardiso import PyPardisoSolver
@@ -226,10 +227,14 @@ class PardisoSolver:
         self._superlu = SuperLUSolver(relative_residual=self.relative_residual)
         self._rows: csr_matrix | None = None
 
+    @property
+    def seconds(self) -> float:
+        """Time spent in factorisations and solves [s]."""
+        return self._stopwatch.seconds
+
     def solve(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray:
         """Solution of ``matrix x = rhs``; raises `SingularSystemError`."""
-        start = time.perf_counter()
-        try:
+        with self._stopwatch:
             rows = matrix.tocsr()
             rows.sort_indices()
             self.factorisations += 1
@@ -242,8 +247,6 @@ class PardisoSolver:
                 return x
             self.fallbacks += 1
             return self._superlu.solve(matrix, rhs)
-        finally:
-            self.seconds += time.perf_counter() - start
 
     def solve_again(self, rhs: FloatArray) -> FloatArray:
         """Solution with the factors that `solve` has left, unchecked."""

@@ -38,9 +38,16 @@ BATCH = 1024
 
 @dataclass(frozen=True, kw_only=True)
 class Kinematics:
-    """Deformation gradient at the Gauss points, components (ne, 4), cell volume ratio and gradient.
+    """Deformation of the elements.
 
-    The gradient is that of the deformed area with respect to the corners, (ne, 4, 2) [mm].
+    Attributes
+    ----------
+    F11, F12, F21, F22 : (ne, 4) float arrays
+        Deformation gradient at the Gauss points [-].
+    Jbar : (ne,) float array
+        Ratio of deformed to reference area [-].
+    area_gradient : (ne, 4, 2) float array
+        Gradient of the deformed area with respect to the corners [mm].
     """
 
     F11: FloatArray
@@ -99,9 +106,8 @@ class Viscosity:
 
     def part(self, cells: slice) -> Viscosity:
         """The term for some of the elements."""
-        rate = (
-            self.rate[cells] if isinstance(self.rate, np.ndarray) and self.rate.ndim else self.rate
-        )
+        rate = np.asarray(self.rate)
+        rate = rate[cells] if rate.ndim else rate
         E11, E22, E12 = (E[cells] for E in self.strain_n)
         return Viscosity(rate=rate, strain_n=(E11, E22, E12))
 
@@ -128,7 +134,6 @@ class ElementForces:
     pressure_residual: FloatArray
     kinematics: Kinematics
     derivatives: EnergyDerivatives
-    area_gradient: FloatArray
     pressure: FloatArray
 
     def part(self, cells: slice) -> ElementForces:
@@ -137,7 +142,7 @@ class ElementForces:
             residual=self.residual[cells], pressure_residual=self.pressure_residual[cells],
             kinematics=self.kinematics.part(cells),
             derivatives=EnergyDerivatives(*(W[cells] for W in self.derivatives)),
-            area_gradient=self.area_gradient[cells], pressure=self.pressure[cells],
+            pressure=self.pressure[cells],
         )  # fmt: skip
 
 
@@ -224,7 +229,6 @@ class Q1P0Elements:
             pressure_residual=dU_dJ - p,
             kinematics=kin,
             derivatives=d,
-            area_gradient=b,
             pressure=p,
         )
 
@@ -240,11 +244,12 @@ class Q1P0Elements:
         K = np.empty((len(self.cells), 2, 2, 4, 4))
         for start in range(0, len(K), BATCH):
             cells = slice(start, start + BATCH)
+            part = forces.part(cells)
             viscous = None if viscosity is None else viscosity.part(cells)
-            A = _weighted_stiffness(forces.part(cells), self.weights[cells], viscous)
+            A = _weighted_stiffness(part, self.weights[cells], viscous)
             np.matmul(A, self._GG[cells], out=K[cells].reshape(-1, 4, 16))
             K[cells, 1, 0] = K[cells, 0, 1].transpose(0, 2, 1)
-            b = forces.area_gradient[cells].reshape(-1, 4, 2).transpose(0, 2, 1)
+            b = part.kinematics.area_gradient.transpose(0, 2, 1)
             c = b * (self.K_bulk / self.volume[cells])[:, None, None]
             K[cells] += c[:, :, None, :, None] * b[:, None, :, None, :]
         return K
@@ -252,7 +257,8 @@ class Q1P0Elements:
     def pressure_increment(self, forces: ElementForces, du: FloatArray) -> FloatArray:
         """Change of the element pressures with `du` (n, 2) by the linearised pressure law."""
         du_e = du[self.cells].reshape(-1, 8)
-        growth = np.einsum("ej,ej->e", forces.area_gradient, du_e)
+        b = forces.kinematics.area_gradient.reshape(-1, 8)
+        growth = np.einsum("ej,ej->e", b, du_e)
         return self.K_bulk / self.volume * growth + forces.pressure_residual
 
     def strain_energy(self, kin: Kinematics) -> float:

@@ -18,7 +18,6 @@ References
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,7 +26,9 @@ from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import SuperLU, splu
 from skfem import Basis, ElementQuad1
 
+from fem.direct_solver import SYMMETRIC
 from fem.mesh import BlockMesh
+from fem.stopwatch import Stopwatch
 from materials.thermal import ThermalProperties
 
 FloatArray = NDArray[np.float64]
@@ -113,8 +114,8 @@ class BlockConduction:
         self.capacity = self._lumped_capacity(basis)
         self._prepare_pattern()
         self._prepare_gradient()
-        #: Time spent in factorisations and solves [s].
-        self.solver_seconds = 0.0
+        #: Time spent in factorisations and solves.
+        self.stopwatch = Stopwatch()
 
     def _lumped_capacity(self, basis: Basis) -> FloatArray:
         """Heat capacity of each node per mm depth, (n,) [mJ/K]."""
@@ -219,22 +220,14 @@ class BlockConduction:
         matrix = self.conduction_matrix(displacement)
         matrix.data *= dt
         matrix.data[self._diagonal] += self.capacity
-        start = time.perf_counter()
-        factor = splu(
-            matrix,
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.001,
-            options={"SymmetricMode": True},
-        )
-        self.solver_seconds += time.perf_counter() - start
+        with self.stopwatch:
+            factor = splu(matrix, permc_spec="MMD_AT_PLUS_A", **SYMMETRIC)
         return Factorisation(displacement=displacement, dt=dt, factor=factor)
 
     def solve(self, factorisation: Factorisation, rhs: FloatArray) -> FloatArray:
         """Solution of a factored system."""
-        start = time.perf_counter()
-        x = np.asarray(factorisation.factor.solve(rhs))
-        self.solver_seconds += time.perf_counter() - start
-        return x
+        with self.stopwatch:
+            return np.asarray(factorisation.factor.solve(rhs))
 
     def heat_content(self, T: FloatArray, T_0_C: float) -> float:
         """Heat stored above a reference temperature per mm depth [mJ/mm]."""

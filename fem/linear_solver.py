@@ -8,7 +8,6 @@ a solution with existing factors, which is about 1/15 of a factorisation.
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -25,6 +24,7 @@ from fem.direct_solver import (
     SuperLUSolver,
     pardiso_available,
 )
+from fem.stopwatch import Stopwatch
 
 FloatArray = NDArray[np.float64]
 
@@ -38,7 +38,7 @@ class KeptFactorsSolver:
     """Conjugate residuals preconditioned with the factors of an earlier system, until they age.
 
     The first system after `forget` is factorised. The tolerance is that of an inexact Newton
-    iteration: between 1e-3 and 1e-6 the Newton iterations were the same within 3 %.
+    iteration: with 20,000 elements, 1e-3 to 1e-6 took the same Newton iterations within 3 %.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class KeptFactorsSolver:
     aged: int = 10
     iterations: int = field(default=0, init=False)
     _usable: bool = field(default=False, init=False)
-    _seconds: float = field(default=0.0, init=False)
+    _stopwatch: Stopwatch = field(default_factory=Stopwatch, init=False, repr=False)
 
     @property
     def factorisations(self) -> int:
@@ -70,7 +70,7 @@ class KeptFactorsSolver:
     @property
     def seconds(self) -> float:
         """Time spent in factorisations and solves [s]."""
-        return self.direct.seconds + self._seconds
+        return self.direct.seconds + self._stopwatch.seconds
 
     def forget(self) -> None:
         """Drop the factors."""
@@ -80,9 +80,8 @@ class KeptFactorsSolver:
     def solve(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray:
         """Solution of ``matrix x = rhs``; raises `SingularSystemError`."""
         if self._usable:
-            start = time.perf_counter()
-            x = self._iterated(matrix, rhs)
-            self._seconds += time.perf_counter() - start
+            with self._stopwatch:
+                x = self._iterated(matrix, rhs)
             if x is not None:
                 return x
         self._usable = False

@@ -9,7 +9,6 @@ and Coulomb friction is the row operation ``row_x + s mu row_y`` (s: sense of th
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -366,7 +365,6 @@ class StepProblem:
         system, elements = self.system, evaluation.elements
         assert elements is not None
         data, pairs = self._force_tangents(evaluation)
-        change_of = self._candidate_rows(data)
         matrix = self._constrained(data, pairs, evaluation.status)
         step = system.solver.solve(matrix, -evaluation.residual)
         held = self._held_equations(evaluation.status)
@@ -374,14 +372,25 @@ class StepProblem:
         step[held] = -evaluation.residual[held] / system.elements.K_bulk
         du = system.scatter(step)
         dp = system.elements.pressure_increment(elements, du)
-        change = change_of(step)
+        change = self._force_change(data, pairs, step)
+        return Iterate(u=du, p=dp, status=evaluation.status, reactions=change)
+
+    def _force_change(
+        self, data: FloatArray, pairs: FloatArray | None, step: FloatArray
+    ) -> FloatArray:
+        """Linear change of the candidates' nodal forces with a step, (m, 2) [N/mm]."""
+        system, count = self.system, self.system.candidates.size
+        change = np.empty((count, 2))
+        for component, slots in enumerate((system._slots_x, system._slots_y)):
+            terms = data[slots] * step[system.pattern.columns[slots]]
+            change[:, component] = summed(system._owner, terms, count)
         if pairs is not None:
             assert self.load.pairs is not None
-            nodes = self.load.pairs.nodes
+            du, nodes = system.scatter(step), self.load.pairs.nodes
             on_nodes, g = np.zeros_like(du), np.matmul(pairs, du[nodes].reshape(-1, 6, 1))
             np.add.at(on_nodes, nodes, g.reshape(-1, 3, 2))
             change += on_nodes[system.candidates]
-        return Iterate(u=du, p=dp, status=evaluation.status, reactions=change)
+        return change
 
     def _held_equations(self, status: ContactStatus) -> IntArray:
         """Equations that prescribe a displacement: gaps (active) and slips (sticking)."""
@@ -406,23 +415,6 @@ class StepProblem:
         if pairs is None or evaluation.pairs is None or not evaluation.pairs.normal.any():
             return data, None
         return data, pair_tangents(pairs, evaluation.pairs)
-
-    def _candidate_rows(self, data: FloatArray) -> Callable[[FloatArray], FloatArray]:
-        """Linear change (m, 2) of the candidates' nodal forces with a step of the unknowns [N/mm].
-
-        The rows are copied, for contact then overwrites them.
-        """
-        system = self.system
-        slots = (system._slots_x, system._slots_y)
-        rows = [(data[slot], system.pattern.columns[slot]) for slot in slots]
-
-        def change(step: FloatArray) -> FloatArray:
-            parts = [
-                summed(system._owner, row * step[at], len(system.candidates)) for row, at in rows
-            ]
-            return np.column_stack(parts)
-
-        return change
 
     def _constrained(
         self, data: FloatArray, pairs: FloatArray | None, status: ContactStatus
@@ -458,8 +450,8 @@ class StepProblem:
         return coo_matrix((value_to, (row_to, column_to)), shape=(size, size)).tocsc()
 
     def _with_contact_rows(self, data: FloatArray, status: ContactStatus) -> FloatArray:
-        """Friction rows, stick rows and gap rows put into the matrix data."""
-        system, owner = self.system, self.system._owner
+        """Matrix data with friction rows, stick rows and gap rows."""
+        system, owner, data = self.system, self.system._owner, data.copy()
         factor = np.where(status.slipping, status.sense * self.load.mu, 0.0)[owner]
         data[system._slots_x] += factor * data[system._slots_y]
         data[system._slots_x[status.sticking[owner]]] = 0.0

@@ -116,12 +116,8 @@ class _Run:
     @property
     def solver_seconds(self) -> float:
         """Time spent in sparse factorisations and solves, of mechanics and heat [s]."""
-        model = self.model
-        return (
-            self.solver_seconds_before
-            + model.mechanics.solver.seconds
-            + model.heat.block.solver_seconds
-        )
+        mechanics, heat = self.model.mechanics.solver, self.model.heat.block.stopwatch
+        return self.solver_seconds_before + mechanics.seconds + heat.seconds
 
     def _point(self, phase: int, at: float, step: float, bound: float) -> RunPoint:
         recorder = self.recorder

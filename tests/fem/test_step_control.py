@@ -39,6 +39,23 @@ def test_repeated_growth_after_a_cut_recovers_the_step():
     assert step == 1.0
 
 
+def test_a_failed_step_bounds_the_next_ones():
+    bound = CONTROL.caution * 1.0
+    assert CONTROL.accepted(0.5, 3, bound) == bound
+    assert CONTROL.accepted(0.1, 3, bound) == pytest.approx(0.1 * CONTROL.growth)
+    assert CONTROL.accepted(1e-3, 3, 1e-4) == CONTROL.step_min
+
+
+def test_the_bound_of_a_failed_step_is_outgrown():
+    step, bound, lengths = CONTROL.rejected(1.0), CONTROL.caution * 1.0, []
+    while step < 1.0:
+        bound *= CONTROL.recovery
+        step = CONTROL.accepted(step, 3, bound)
+        lengths.append(step)
+    assert lengths == sorted(lengths)
+    assert 2 < len(lengths) < 10
+
+
 @pytest.mark.parametrize("step", [0.3, 0.17, 1.0, 0.0999])
 def test_landing_reaches_the_end_without_a_sliver(step):
     at, lengths = 0.0, []
