@@ -29,12 +29,6 @@ Weighting = Literal["equal", "modes", "relative"]
 
 COLUMNS = ("stretch", "nominal_stress_N_per_mm2", "mode")
 LARGEST_STRETCH = 20.0  # no rubber gets there; percent do
-_RUBBER_KEYS = {
-    "neo-hooke": {"G": "G_N_per_mm2"},
-    "mooney-rivlin": {"C10": "C10_N_per_mm2", "C01": "C01_N_per_mm2"},
-    "yeoh": {"C10": "C10_N_per_mm2", "C20": "C20_N_per_mm2", "C30": "C30_N_per_mm2"},
-    "van-der-waals": {"G": "G_N_per_mm2", "lambda_m": "lambda_m", "a": "a", "beta": "beta"},
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -425,12 +419,10 @@ def _completed(
         "version": version(),
         "stability": stability,
     }
-    keys = _RUBBER_KEYS.get(model, {})
-    rubber = {"model": model, **{key: values[name] for name, key in keys.items()}}
     return replace(
         result,
         model=energy,
         metadata=metadata,
-        section={"rubber": rubber} if keys else {},
+        section={"rubber": law.section(model, values)},
         warnings=(*result.warnings, *stability.warnings),
     )

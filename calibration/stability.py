@@ -20,11 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from calibration.ogden import Ogden
 from materials.hyperelastic import MODES, Hyperelastic
 
 Array = NDArray[np.float64]
-Energy = Hyperelastic | Ogden
 
 SCAN = (0.1, 20.0)  # stretches between which an end of stability is looked for
 
@@ -76,42 +74,20 @@ def _inside(ends: dict[str, tuple[float, float]], low: float, high: float, what:
     return sentences
 
 
-def log_derivatives(model: Energy, e1: Array, e2: Array) -> tuple[Array, Array]:
-    """Gradient (n, 2) and Hessian (n, 2, 2) of W [N/mm^2] in the logarithmic stretches (n,)."""
-    if isinstance(model, Ogden):
-        return model.log_derivatives(e1, e2)
-    c1, c2 = model.mixture
-    e = np.stack([e1, e2, -e1 - e2])
-    squares, inverse = np.exp(2.0 * e), np.exp(-2.0 * e)
-    s = c1 * squares.sum(axis=0) + c2 * inverse.sum(axis=0)
-    slopes = 2.0 * (c1 * squares - c2 * inverse)
-    bends = 4.0 * (c1 * squares + c2 * inverse)
-    with np.errstate(all="ignore"):
-        _, w1, w2 = model.energy(s)
-    s_i = np.stack([slopes[0] - slopes[2], slopes[1] - slopes[2]], axis=1)
-    s_ij = np.empty((e1.size, 2, 2))
-    s_ij[:, 0, 0], s_ij[:, 1, 1] = bends[0] + bends[2], bends[1] + bends[2]
-    s_ij[:, 0, 1] = s_ij[:, 1, 0] = bends[2]
-    w1, w2 = np.broadcast_to(w1, s.shape), np.broadcast_to(w2, s.shape)
-    gradient = w1[:, None] * s_i
-    hessian = w2[:, None, None] * s_i[:, :, None] * s_i[:, None, :] + w1[:, None, None] * s_ij
-    return gradient, hessian
-
-
-def drucker_margin(model: Energy, stretch: Array, mode: str) -> Array:
+def drucker_margin(model: Hyperelastic, stretch: Array, mode: str) -> Array:
     """Smaller eigenvalue of the Hessian over the shear modulus [-]; negative where unstable."""
     e = np.log(stretch)
     transverse = {"uniaxial": -0.5 * e, "equibiaxial": e, "planar": np.zeros_like(e)}[mode]
-    _, H = log_derivatives(model, e, transverse)
+    _, H = model.log_derivatives(e, transverse)
     mean = 0.5 * (H[:, 0, 0] + H[:, 1, 1])
     spread = np.hypot(0.5 * (H[:, 0, 0] - H[:, 1, 1]), H[:, 0, 1])
     return np.asarray((mean - spread) / model.initial_shear_modulus)
 
 
-def ellipticity_margin(model: Energy, stretch: Array) -> Array:
+def ellipticity_margin(model: Hyperelastic, stretch: Array) -> Array:
     """Slope ``d tau/dk`` over the shear modulus [-] in plane strain; negative where unstable."""
     e = np.log(stretch)
-    gradient, H = log_derivatives(model, e, -e)
+    gradient, H = model.log_derivatives(e, -e)
     W_e = gradient[:, 0] - gradient[:, 1]
     W_ee = H[:, 0, 0] - 2.0 * H[:, 0, 1] + H[:, 1, 1]
     k_e = 2.0 * np.cosh(e)
@@ -119,12 +95,12 @@ def ellipticity_margin(model: Energy, stretch: Array) -> Array:
     return np.asarray((W_ee - tau * 2.0 * np.sinh(e)) / k_e**2 / model.initial_shear_modulus)
 
 
-def check_stability(model: Energy, window: dict[str, tuple[float, float]]) -> Stability:
+def check_stability(model: Hyperelastic, window: dict[str, tuple[float, float]]) -> Stability:
     """Find where the energy loses stability, in every mode and in plane strain.
 
     Parameters
     ----------
-    model : Hyperelastic or Ogden
+    model : Hyperelastic
     window : dict
         Lowest and highest stretch of the data by mode.
     """

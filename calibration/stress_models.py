@@ -13,6 +13,7 @@ References
 .. [3] Arruda, E. M., Boyce, M. C., J. Mech. Phys. Solids 41 (1993) 389-412.
 """
 
+import itertools
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any
@@ -21,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from calibration.ogden import TRANSVERSE, Ogden
+from fem.case_rubber import CONSTANTS
 from materials.hyperelastic import (
     MODES,
     ArrudaBoyce,
@@ -31,11 +32,15 @@ from materials.hyperelastic import (
     Yeoh,
     incompressible_kinematics,
 )
+from materials.hyperelastic_base import TRANSVERSE
+from materials.ogden import Ogden
 
 Array = NDArray[np.float64]
 
 _CHAIN = np.array([1 / 2, 1 / 20, 11 / 1050, 19 / 7000, 519 / 673750])
 _CLOSEST_TO_LOCKING = 0.9999
+_POINTS_OF_THE_GRID = 100  # data on which the starts of Ogden's energy are compared
+_GRID = {1: 40, 2: 40, 3: 24}  # exponents on the grid by number of terms; none of them is zero
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,6 +102,11 @@ class StressModel(ABC):
     @abstractmethod
     def build(self, values: dict[str, float]) -> Any:
         """Model object with the parameters."""
+
+    def section(self, model: str, values: dict[str, float]) -> dict[str, Any]:
+        """Keys of the [rubber] section that take the parameters."""
+        known = [key for part in CONSTANTS[model] for key in part]
+        return {"model": model, **{key: values[key.removesuffix("_N_per_mm2")] for key in known}}
 
     def ordered(self, theta: Array) -> Array:
         """Parameters (k,) with terms that may change places in the order that makes them unique."""
@@ -300,19 +310,35 @@ class OgdenStress(StressModel):
         return np.tile([0.0, -30.0], self.terms), np.tile([np.inf, 30.0], self.terms)
 
     def starts(self, kin: Kinematics, P: Array, count: int, rng: np.random.Generator) -> Array:
-        strain = np.log(kin.lam.max() / kin.lam.min())
-        largest = min(12.0, 12.0 / max(strain, 0.1))
-        points = []
-        for i in range(count):
-            alpha = rng.uniform(0.5, largest, self.terms)
-            if self.terms > 1:
-                alpha[-1] *= -1.0 if i % 2 else 1.0
-            mu = nnls(self._terms(alpha, kin)[0], P)[0] + 1e-3 * np.abs(P).max() / largest
-            points.append(np.stack([mu, alpha], axis=1).ravel())
-        return np.array(points)
+        """The best of all combinations of exponents on a grid, each with its best moduli.
+
+        For given exponents the moduli are a small linear problem with mu >= 0, so the grid costs
+        little; its spacing follows the largest strain, over which ``lam^alpha`` must not explode.
+        """
+        few = np.linspace(0, P.size - 1, min(P.size, _POINTS_OF_THE_GRID)).round().astype(int)
+        fewer, stress = kin.at(few), P[few]
+        strain = np.abs(np.log(fewer.lam)).max() * max(1.0, float(fewer.transverse.max()))
+        largest = min(25.0, max(6.0, 10.0 / max(strain, 0.1)))
+        grid = largest * np.linspace(-1.0, 1.0, _GRID[self.terms])
+        columns = self._terms(grid, fewer)[0]
+        size = np.linalg.norm(columns, axis=0)
+        combinations = np.array(list(itertools.combinations(range(grid.size), self.terms)))
+        found = [nnls(columns[:, chosen] / size[chosen], stress) for chosen in combinations]
+        best = np.argsort([misfit for _, misfit in found], kind="stable")[:count]
+        least = 1e-3 * np.abs(P).max() / largest  # a term at zero would not move
+        points = [
+            np.stack([found[i][0] / size[combinations[i]] + least, grid[combinations[i]]], axis=1)
+            for i in best
+        ]
+        return np.array([point.ravel() for point in points])
 
     def ordered(self, theta: Array) -> Array:
         return theta.reshape(self.terms, 2)[np.argsort(-theta[1::2])].ravel()
+
+    def section(self, model: str, values: dict[str, float]) -> dict[str, Any]:
+        energy = self.build(values)
+        moduli, exponents = CONSTANTS["ogden"][0]
+        return {"model": "ogden", moduli: list(energy.mu), exponents: list(energy.alpha)}
 
     def build(self, values: dict[str, float]) -> Ogden:
         indices = range(1, self.terms + 1)

@@ -17,6 +17,7 @@ from materials.hyperelastic import (
     VanDerWaals,
     Yeoh,
 )
+from materials.ogden import Ogden
 from materials.thermal import ThermalProperties
 
 DEFAULT_COMPOUND = "yeoh-bars-series-1-load"
@@ -28,6 +29,7 @@ CONSTANTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "yeoh": (("C10_N_per_mm2", "C20_N_per_mm2", "C30_N_per_mm2"), ()),
     "van-der-waals": (("G_N_per_mm2", "lambda_m", "a"), ("beta",)),
     "arruda-boyce": (("C1_N_per_mm2", "lambda_m"), ()),
+    "ogden": (("mu_N_per_mm2", "alpha"), ()),
 }
 ALL_CONSTANTS = tuple(dict.fromkeys(k for pair in CONSTANTS.values() for k in pair[0] + pair[1]))
 _MODELS = {
@@ -36,6 +38,7 @@ _MODELS = {
     "yeoh": Yeoh,
     "van-der-waals": VanDerWaals,
     "arruda-boyce": ArrudaBoyce,
+    "ogden": Ogden,
 }
 
 
@@ -44,7 +47,8 @@ class Rubber(Section):
 
     compound: str | None = Field(None, description="named parameter set of the paper's Table 1")
     model_name: (
-        Literal["neo-hooke", "mooney-rivlin", "yeoh", "van-der-waals", "arruda-boyce"] | None
+        Literal["neo-hooke", "mooney-rivlin", "yeoh", "van-der-waals", "arruda-boyce", "ogden"]
+        | None
     ) = Field(None, alias="model", description="hyperelastic model, instead of a compound")
     C10_N_per_mm2: Finite | None = Field(None, description="first invariant, linear [N/mm^2]")
     C01_N_per_mm2: Finite | None = Field(None, description="second invariant, linear [N/mm^2]")
@@ -59,6 +63,10 @@ class Rubber(Section):
     beta: Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)] | None = Field(
         None, description="share of the second invariant [-]"
     )
+    mu_N_per_mm2: list[Finite] | None = Field(
+        None, description="Ogden, moduli whose sum is the shear modulus [N/mm^2]"
+    )
+    alpha: list[Finite] | None = Field(None, description="Ogden, exponents of the stretches [-]")
     bulk_ratio: Annotated[float, Field(gt=2.0 / 3.0, le=1e6, allow_inf_nan=False)] = Field(
         100.0, description="bulk modulus over initial shear modulus [-]"
     )
@@ -102,7 +110,11 @@ class Rubber(Section):
         required, optional = CONSTANTS[self.model_name]
         constants = {key: getattr(self, key) for key in required + optional}
         return _MODELS[self.model_name](
-            **{k.removesuffix("_N_per_mm2"): v for k, v in constants.items() if v is not None}
+            **{
+                key.removesuffix("_N_per_mm2"): tuple(value) if isinstance(value, list) else value
+                for key, value in constants.items()
+                if value is not None
+            }
         )
 
     @property

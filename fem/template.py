@@ -17,6 +17,7 @@ Instead of a compound, [rubber] takes a model with its constants:
     model = "yeoh"            C10_N_per_mm2, C20_N_per_mm2, C30_N_per_mm2
     model = "van-der-waals"   G_N_per_mm2, lambda_m, a, beta
     model = "arruda-boyce"    C1_N_per_mm2, lambda_m
+    model = "ogden"           mu_N_per_mm2 and alpha, arrays with an entry per term
 [friction] takes law = "exponential" with A, B, C, or law = "coulomb" with mu.
 [rubber], [friction] and [heat] also take parameters = "file.toml", the result of a calibration;
 a relative name is relative to this file, and keys given here win over those given there.

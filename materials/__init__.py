@@ -11,6 +11,7 @@ from materials.hyperelastic import (
     VanDerWaals,
     Yeoh,
 )
+from materials.ogden import Ogden
 from materials.thermal import ASPHALT, RUBBER, ThermalProperties
 from materials.wlf import WLF
 
@@ -25,6 +26,7 @@ __all__ = [
     "Hyperelastic",
     "MooneyRivlin",
     "NeoHooke",
+    "Ogden",
     "ThermalProperties",
     "VanDerWaals",
     "Yeoh",

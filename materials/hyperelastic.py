@@ -14,40 +14,43 @@ References
 .. [3] Arruda, E. M., Boyce, M. C., J. Mech. Phys. Solids 41 (1993) 389-412.
 """
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from materials.checks import require_between, require_finite, require_positive
+from materials.hyperelastic_base import (
+    MODES,
+    EnergyDerivatives,
+    Hyperelastic,
+    Mode,
+    checked_stretch,
+)
+
+__all__ = [
+    "MODES",
+    "ArrudaBoyce",
+    "EnergyDerivatives",
+    "Hyperelastic",
+    "MixedInvariantEnergy",
+    "MooneyRivlin",
+    "NeoHooke",
+    "VanDerWaals",
+    "Yeoh",
+    "incompressible_kinematics",
+]
 
 Array = NDArray[np.float64]
-Mode = Literal["uniaxial", "equibiaxial", "planar"]
-MODES: tuple[str, ...] = get_args(Mode)
 
 # Below this value of s - 3 the curvature term of the van der Waals energy contributes less than
 # 1e-7 G to dP/dF (its limit at the undeformed state is zero) but would amplify rounding.
 _UNDEFORMED = 1e-14
 
 
-class EnergyDerivatives(NamedTuple):
-    """Isochoric energy per reference volume and its partial derivatives [N/mm^2].
-
-    ``W_1`` is dW/dI1 at constant J, ``W_J`` is dW/dJ at constant I1, and so on.
-    """
-
-    W: Array
-    W_1: Array
-    W_J: Array
-    W_11: Array
-    W_1J: Array
-    W_JJ: Array
-
-
 @dataclass(frozen=True, kw_only=True)
-class Hyperelastic(ABC):
+class MixedInvariantEnergy(Hyperelastic):
     """Base of the isochoric energies ``W = w(s)``, ``s = c1 I1b + c2 I2b``."""
 
     @property
@@ -59,40 +62,8 @@ class Hyperelastic(ABC):
     def energy(self, s: Array) -> tuple[Array, Array, Array]:
         """Energy ``w(s)`` [N/mm^2] with its first and second derivative with respect to s."""
 
-    @property
-    @abstractmethod
-    def initial_shear_modulus(self) -> float:
-        """Shear modulus G of the undeformed state [N/mm^2]."""
-
-    def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
-        """Whether the energy exists at the state (J > 0, finite, below a locking stretch).
-
-        Parameters
-        ----------
-        I1, J : array_like
-            First invariant F:F + 1 and determinant of F [-], any common shape.
-        """
-        I1, J = np.asarray(I1, dtype=float), np.asarray(J, dtype=float)
-        with np.errstate(all="ignore"):
-            valid = (J > 0.0) & np.isfinite(I1) & np.isfinite(J)
-            return valid & self._below_locking(I1, np.where(J > 0.0, J, 1.0))
-
-    def _below_locking(self, I1: Array, J: Array) -> NDArray[np.bool_] | np.bool_:
-        return np.True_
-
     def derivatives(self, I1: ArrayLike, J: ArrayLike) -> EnergyDerivatives:
-        """Isochoric energy and its derivatives with respect to the plane-strain invariants.
-
-        Parameters
-        ----------
-        I1, J : array_like
-            First invariant F:F + 1 and determinant of F [-], any common shape. The state must be
-            admissible; elsewhere the values are not meaningful (NaN, or of no physical use).
-
-        Returns
-        -------
-        EnergyDerivatives
-            Arrays of the common shape [N/mm^2].
+        """Isochoric energy and its derivatives (see `Hyperelastic.derivatives`).
 
         Notes
         -----
@@ -137,35 +108,32 @@ class Hyperelastic(ABC):
         s_JJ = s_JJ - (7.0 / 3.0) * inverse * part_J - (2.0 / 9.0) * fourth
         return s, s_1, s_J, s_1J, s_JJ
 
-    def invariant_slopes(self, I1b: ArrayLike, I2b: ArrayLike) -> tuple[Array, Array]:
-        """Slopes ``dW/dI1b, dW/dI2b`` [N/mm^2] at given isochoric invariants [-]."""
-        c1, c2 = self.mixture
-        s = c1 * np.asarray(I1b, dtype=float) + c2 * np.asarray(I2b, dtype=float)
-        with np.errstate(all="ignore"):
-            _, w1, _ = self.energy(s)
-        return c1 * w1, c2 * w1
-
     def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
-        """Nominal stress of the incompressible material in a homogeneous test.
+        """Nominal stress [N/mm^2] of a homogeneous test (see `Hyperelastic.nominal_stress`)."""
+        I1b, I2b, k1, k2 = incompressible_kinematics(checked_stretch(stretch), mode)
+        c1, c2 = self.mixture
+        with np.errstate(all="ignore"):
+            _, slope, _ = self.energy(c1 * I1b + c2 * I2b)
+        return slope * (c1 * k1 + c2 * k2)
 
-        Parameters
-        ----------
-        stretch : array_like
-            Stretch in the loading direction [-], above zero.
-        mode : {"uniaxial", "equibiaxial", "planar"}
-            Kind of test; planar is also called pure shear.
-
-        Returns
-        -------
-        ndarray
-            Force per undeformed area [N/mm^2], NaN beyond a locking stretch.
-        """
-        lam = np.asarray(stretch, dtype=float)
-        if not np.all(lam > 0.0):
-            raise ValueError(f"stretch holds {np.min(lam):g}; expected values above zero")
-        I1b, I2b, k1, k2 = incompressible_kinematics(lam, mode)
-        W_a, W_b = self.invariant_slopes(I1b, I2b)
-        return W_a * k1 + W_b * k2
+    def log_derivatives(self, e1: Array, e2: Array) -> tuple[Array, Array]:
+        """Gradient and Hessian of W in two logarithmic stretches (see `Hyperelastic`)."""
+        c1, c2 = self.mixture
+        e = np.stack([e1, e2, -e1 - e2])
+        squares, inverse = np.exp(2.0 * e), np.exp(-2.0 * e)
+        s = c1 * squares.sum(axis=0) + c2 * inverse.sum(axis=0)
+        slopes = 2.0 * (c1 * squares - c2 * inverse)
+        bends = 4.0 * (c1 * squares + c2 * inverse)
+        with np.errstate(all="ignore"):
+            _, w1, w2 = self.energy(s)
+        s_i = np.stack([slopes[0] - slopes[2], slopes[1] - slopes[2]], axis=1)
+        s_ij = np.empty((e1.size, 2, 2))
+        s_ij[:, 0, 0], s_ij[:, 1, 1] = bends[0] + bends[2], bends[1] + bends[2]
+        s_ij[:, 0, 1] = s_ij[:, 1, 0] = bends[2]
+        w1, w2 = np.broadcast_to(w1, s.shape), np.broadcast_to(w2, s.shape)
+        gradient = w1[:, None] * s_i
+        hessian = w2[:, None, None] * s_i[:, :, None] * s_i[:, None, :] + w1[:, None, None] * s_ij
+        return gradient, hessian
 
 
 def incompressible_kinematics(lam: Array, mode: str) -> tuple[Array, Array, Array, Array]:
@@ -196,7 +164,7 @@ def incompressible_kinematics(lam: Array, mode: str) -> tuple[Array, Array, Arra
 
 
 @dataclass(frozen=True, kw_only=True)
-class NeoHooke(Hyperelastic):
+class NeoHooke(MixedInvariantEnergy):
     """Neo-Hookean energy ``W = G/2 (I1b - 3)``.
 
     Parameters
@@ -224,7 +192,7 @@ class NeoHooke(Hyperelastic):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MooneyRivlin(Hyperelastic):
+class MooneyRivlin(MixedInvariantEnergy):
     """Mooney-Rivlin energy ``W = C10 (I1b - 3) + C01 (I2b - 3)``, eq. (1).
 
     Parameters
@@ -253,7 +221,7 @@ class MooneyRivlin(Hyperelastic):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Yeoh(Hyperelastic):
+class Yeoh(MixedInvariantEnergy):
     """Yeoh energy ``W = C10 x + C20 x^2 + C30 x^3`` with ``x = I1b - 3``, eq. (2).
 
     Parameters
@@ -291,7 +259,7 @@ class Yeoh(Hyperelastic):
 
 
 @dataclass(frozen=True, kw_only=True)
-class VanDerWaals(Hyperelastic):
+class VanDerWaals(MixedInvariantEnergy):
     """Van der Waals energy of a real network, eqs. (3)-(4) [2]_.
 
     ``W = G { -(lambda_m^2 - 3) [ln(1 - eta) + eta] - (2 a/3) ((s - 3)/2)^(3/2) }`` with
@@ -361,7 +329,7 @@ _ARRUDA_BOYCE = (1 / 2, 1 / 20, 11 / 1050, 19 / 7000, 519 / 673750)
 
 
 @dataclass(frozen=True, kw_only=True)
-class ArrudaBoyce(Hyperelastic):
+class ArrudaBoyce(MixedInvariantEnergy):
     """Eight-chain energy in its five-term expansion [3]_.
 
     ``W = C1 sum_i c_i lambda_m^(2 - 2 i) (I1b^i - 3^i)``

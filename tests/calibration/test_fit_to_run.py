@@ -3,6 +3,7 @@
 import json
 import tomllib
 
+import numpy as np
 import pytest
 
 import treadfem
@@ -10,6 +11,7 @@ from calibration.conductance import synthetic_heating_record
 from calibration.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction
 from contact import HuemerFriction
+from fem import Case, simulate
 from materials import WLF
 
 CASE = """
@@ -64,6 +66,30 @@ def test_three_calibrations_feed_one_run(tmp_path):
     resolved = (tmp_path / "run" / "case.toml").read_text()
     assert 'model = "yeoh"' in resolved
     assert "C10_N_per_mm2 = 0.37" in resolved
+
+
+def test_ogden_of_exponents_two_and_minus_two_slides_like_mooney_rivlin():
+    # the same energy written in the two ways, through contact, heat and snaps of the edge
+    mooney = {"model": "mooney-rivlin", "C10_N_per_mm2": 0.258, "C01_N_per_mm2": 0.4587}
+    ogden = {"model": "ogden", "mu_N_per_mm2": [0.516, 0.9174], "alpha": [2.0, -2.0]}
+    slides = [
+        simulate(
+            Case.from_dict(
+                {
+                    "block": {"mesh": "coarse"},
+                    "rubber": rubber,
+                    "loading": {
+                        "mean_pressure_N_per_mm2": 0.25,
+                        "velocity_mm_per_s": 300.0,
+                        "distance_mm": 0.5,
+                    },
+                }
+            )
+        ).history
+        for rubber in (mooney, ogden)
+    ]
+    for column in ("friction_force_N_per_mm", "platen_displacement_mm", "T_max_C"):
+        np.testing.assert_allclose(slides[0][column], slides[1][column], rtol=1e-6)
 
 
 def test_a_fitted_heat_partition_goes_straight_into_a_run(tmp_path, capsys):

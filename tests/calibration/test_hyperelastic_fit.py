@@ -139,8 +139,11 @@ def test_ogden_fit_agrees_with_an_independent_one_in_rmse(dataset):
     def residuals(theta):
         return np.concatenate(
             [
-                homogeneous.ogden_nominal_stress(
-                    theta[0::2], theta[1::2], data.stretch[data.mode == mode], mode
+                homogeneous.nominal_stress(
+                    "Ogden",
+                    {"mu": theta[0::2], "alpha": theta[1::2]},
+                    data.stretch[data.mode == mode],
+                    mode,
                 )
                 - data.stress[data.mode == mode]
                 for mode in MODES
@@ -150,6 +153,19 @@ def test_ogden_fit_agrees_with_an_independent_one_in_rmse(dataset):
     tight = {"xtol": 1e-14, "ftol": 1e-14, "gtol": 1e-14, "x_scale": "jac"}
     other = least_squares(residuals, found.theta * 1.01, jac="3-point", **tight)
     assert found.rmse == pytest.approx(np.sqrt(np.mean(other.fun**2)), abs=1e-6)
+
+
+def test_ogden_finds_the_better_of_two_minima():
+    # two terms of opposite sign; random positive exponents end at an RMSE half as large again
+    stretch = np.array([1.0, 1.13, 1.32, 1.61, 2.0, 2.49, 2.75, 3.0, 3.43, 3.75, 4.0])
+    exact = 8.2 / 1.1 * (stretch**0.1 - stretch**-1.55)
+    exact += 4.6 / -6.3 * (stretch**-7.3 - stretch ** (0.5 * 6.3 - 1.0))
+    table = pd.DataFrame(
+        {"stretch": stretch, "nominal_stress_N_per_mm2": exact.round(2), "mode": "uniaxial"}
+    )
+    result = fit_hyperelastic(table, "ogden-2")
+    assert result.rmse < 0.004  # rounding to 0.01 leaves 0.003
+    assert result.values["alpha2"] == pytest.approx(-6.3, abs=0.3)
 
 
 def test_yeoh_follows_treloar_up_to_stretch_4():

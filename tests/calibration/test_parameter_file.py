@@ -8,6 +8,7 @@ import pytest
 
 from calibration import fit_friction, fit_hyperelastic, fit_wlf
 from calibration.datasets import DATASETS, dataset_path
+from calibration.stress_models import STRESS_MODELS
 from calibration.synthetic import (
     TABLE_1,
     synthetic_bar_cycles,
@@ -17,6 +18,7 @@ from calibration.synthetic import (
 )
 from contact import HuemerFriction
 from fem.case import Case
+from fem.case_rubber import CONSTANTS
 from materials import WLF, compound
 
 LOADING = """
@@ -86,12 +88,18 @@ def test_a_case_takes_a_fitted_shift_for_its_own_law(tmp_path):
     assert Case.from_toml(case_file).friction.law_object().wlf == result.model
 
 
-@pytest.mark.parametrize("model", ["ogden-3", "arruda-boyce"])
-def test_models_no_case_takes_write_their_numbers_only(model, tmp_path):
+@pytest.mark.parametrize("model", STRESS_MODELS)
+def test_every_model_that_can_be_fitted_goes_into_a_case_as_it_is(model, tmp_path):
     result = fit_hyperelastic(dataset_path("kawabata1981"), model)
     content = tomllib.loads(result.to_toml(tmp_path / "p.toml").read_text())
-    assert "rubber" not in content
     assert content["fit"]["values"] == result.values
+    case_file = tmp_path / "case.toml"
+    case_file.write_text('[rubber]\nparameters = "p.toml"\n' + LOADING)
+    assert Case.from_toml(case_file).rubber.model() == result.model
+
+
+def test_every_model_of_a_case_can_be_fitted():
+    assert {name.rstrip("-123") for name in STRESS_MODELS} == set(CONSTANTS)
 
 
 def test_numbers_that_are_not_finite_stay_readable(tmp_path):

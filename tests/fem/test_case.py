@@ -15,7 +15,7 @@ from fem.case import Case
 from fem.case_errors import CaseError
 from fem.case_reading import parse_override
 from fem.template import case_template
-from materials import ASPHALT, COMPOUNDS, RUBBER, ArrudaBoyce, NeoHooke, VanDerWaals, Yeoh
+from materials import ASPHALT, COMPOUNDS, RUBBER, ArrudaBoyce, NeoHooke, Ogden, VanDerWaals, Yeoh
 from tests.wrong_cases import SET_SYNTAX, WRONG_CASES, WrongCase
 
 LOADING = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300, "distance_mm": 120.0}
@@ -89,6 +89,10 @@ def test_every_compound_can_be_named(name):
         (
             {"model": "arruda-boyce", "C1_N_per_mm2": 0.6, "lambda_m": 3.0},
             ArrudaBoyce(C1=0.6, lambda_m=3.0),
+        ),
+        (
+            {"model": "ogden", "mu_N_per_mm2": [0.5, 0.02], "alpha": [1.3, -3]},
+            Ogden(mu=(0.5, 0.02), alpha=(1.3, -3.0)),
         ),
     ],
 )

@@ -20,6 +20,8 @@ def isochoric_energy(name, constants, l1, l2, l3):
     """Energy [N/mm^2] of the isochoric part of the principal stretches (complex allowed)."""
     cube = (l1 * l2 * l3) ** (1 / 3)
     l1, l2, l3 = l1 / cube, l2 / cube, l3 / cube
+    if name in STRETCH_ENERGIES:
+        return STRETCH_ENERGIES[name](l1, l2, l3, **constants)
     first = l1**2 + l2**2 + l3**2
     second = (l1 * l2) ** 2 + (l2 * l3) ** 2 + (l3 * l1) ** 2
     return ENERGIES[name](first, second, **constants)
@@ -52,6 +54,12 @@ def arruda_boyce(first, second, *, C1, lambda_m):
     )
 
 
+def ogden(l1, l2, l3, *, mu, alpha):
+    terms = zip(mu, alpha, strict=True)
+    return sum(2 * m / a**2 * (l1**a + l2**a + l3**a - 3) for m, a in terms)
+
+
+#: Energies of the isochoric invariants, and those of the isochoric stretches.
 ENERGIES = {
     "NeoHooke": neo_hooke,
     "MooneyRivlin": mooney_rivlin,
@@ -59,6 +67,8 @@ ENERGIES = {
     "VanDerWaals": van_der_waals,
     "ArrudaBoyce": arruda_boyce,
 }
+
+STRETCH_ENERGIES = {"Ogden": ogden}
 
 PATHS = {
     "uniaxial": (lambda lam: (lam, lam**-0.5, lam**-0.5), 1),
@@ -74,18 +84,15 @@ def nominal_stress(name, constants, stretch, mode):
     return isochoric_energy(name, constants, *stretches).imag / STEP / forces
 
 
-def ogden_nominal_stress(mu, alpha, stretch, mode):
-    """Nominal stress [N/mm^2] of Ogden's energy 2 mu/alpha^2 (sum of stretches^alpha - 3)."""
-    path, forces = PATHS[mode]
-    stretches = path(np.asarray(stretch, dtype=complex) + 1j * STEP)
-    W = sum(2 * m / a**2 * sum(s**a for s in stretches) for m, a in zip(mu, alpha, strict=True))
-    return W.imag / STEP / forces
-
-
 def plane_strain_energy(name, constants, F, F33=1.0):
     """Isochoric energy [N/mm^2] of deformation gradients (..., 2, 2) and F33 (complex allowed)."""
     trace = np.sum(F * F, axis=(-2, -1)) + F33**2
     J = (F[..., 0, 0] * F[..., 1, 1] - F[..., 0, 1] * F[..., 1, 0]) * F33
+    if name in STRETCH_ENERGIES:
+        # squared stretches are the roots of x^2 - tr(C) x + det(C) in the plane
+        half, area = (trace - F33**2) / 2, J / F33
+        root = np.sqrt(half**2 - area**2)
+        return isochoric_energy(name, constants, (half + root) ** 0.5, (half - root) ** 0.5, F33)
     # I2 from its definition with C = F^T F, not from the shortcut of plane strain
     C = np.swapaxes(F, -1, -2) @ F
     trace_C2 = np.sum(C * np.swapaxes(C, -1, -2), axis=(-2, -1)) + F33**4

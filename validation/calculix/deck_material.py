@@ -17,10 +17,13 @@ from __future__ import annotations
 from fem.case import Case
 from fem.case_errors import CaseError
 from materials.hyperelastic import Hyperelastic, MooneyRivlin, NeoHooke, Yeoh
+from materials.ogden import Ogden
 
 #: Compliance D [mm^2/N] that switches a volumetric term off. Zero does not: CalculiX 2.20 then
 #: takes a default of its own (0.0174 and 0.0023 for D2 and D3 of the rubber in the tests).
 OFF = 1.0e20
+#: Terms of Ogden's energy that CalculiX takes.
+MOST_OGDEN_TERMS = 4
 
 
 def hyperelastic_card(case: Case) -> list[str]:
@@ -33,6 +36,11 @@ def hyperelastic_card(case: Case) -> list[str]:
     if isinstance(model, Yeoh):
         constants = numbers(model.C10, model.C20, model.C30, D1, OFF, OFF)
         return ["*HYPERELASTIC, YEOH", constants]
+    if isinstance(model, Ogden) and len(model.mu) <= MOST_OGDEN_TERMS:
+        pairs = [value for pair in zip(model.mu, model.alpha, strict=True) for value in pair]
+        values = [*pairs, D1, *[OFF] * (len(model.mu) - 1)]
+        lines = [numbers(*values[i : i + 8]) for i in range(0, len(values), 8)]
+        return [f"*HYPERELASTIC, OGDEN, N={len(model.mu)}", *lines]
     raise _no_such_material(case, model)
 
 
@@ -42,8 +50,8 @@ def _no_such_material(case: Case, model: Hyperelastic) -> CaseError:
         file=case.source,
         key=key,
         found=f'"{case.rubber.compound or case.rubber.model_name}" ({type(model).__name__})',
-        expected="a Yeoh, Mooney-Rivlin or neo-Hookean rubber: no other energy here is the same "
-        "in CalculiX",
+        expected="a Yeoh, Mooney-Rivlin, neo-Hookean or Ogden rubber: no other energy here is "
+        "the same in CalculiX",
     )
 
 

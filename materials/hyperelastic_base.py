@@ -1,0 +1,108 @@
+"""What every isochoric strain energy offers: plane strain, homogeneous tests, stability.
+
+In plane strain (F33 = 1) every isotropic isochoric energy is a function of ``I1 = F:F + 1`` and
+``J = det F`` alone, because the third principal stretch is 1 and the other two follow from them.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+Mode = Literal["uniaxial", "equibiaxial", "planar"]
+MODES: tuple[str, ...] = get_args(Mode)
+
+#: Exponent t of the transverse stretch lam^-t of the homogeneous incompressible tests, by mode.
+TRANSVERSE = {"uniaxial": 0.5, "equibiaxial": 2.0, "planar": 1.0}
+
+
+class EnergyDerivatives(NamedTuple):
+    """Isochoric energy per reference volume and its partial derivatives [N/mm^2].
+
+    ``W_1`` is dW/dI1 at constant J, ``W_J`` is dW/dJ at constant I1, and so on.
+    """
+
+    W: Array
+    W_1: Array
+    W_J: Array
+    W_11: Array
+    W_1J: Array
+    W_JJ: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hyperelastic(ABC):
+    """Base of the isochoric energies."""
+
+    @property
+    @abstractmethod
+    def initial_shear_modulus(self) -> float:
+        """Shear modulus G of the undeformed state [N/mm^2]."""
+
+    @abstractmethod
+    def derivatives(self, I1: ArrayLike, J: ArrayLike) -> EnergyDerivatives:
+        """Isochoric energy and its derivatives with respect to the plane-strain invariants.
+
+        Parameters
+        ----------
+        I1, J : array_like
+            First invariant F:F + 1 and determinant of F [-], any common shape. The state must be
+            admissible; elsewhere the values are not meaningful (NaN, or of no physical use).
+
+        Returns
+        -------
+        EnergyDerivatives
+            Arrays of the common shape [N/mm^2].
+        """
+
+    @abstractmethod
+    def log_derivatives(self, e1: Array, e2: Array) -> tuple[Array, Array]:
+        """Gradient (n, 2) and Hessian (n, 2, 2) of W [N/mm^2] in the logarithmic stretches (n,).
+
+        The third stretch follows from incompressibility, ``e3 = -e1 - e2``. NaN beyond a locking
+        stretch.
+        """
+
+    @abstractmethod
+    def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+        """Nominal stress of the incompressible material in a homogeneous test.
+
+        Parameters
+        ----------
+        stretch : array_like
+            Stretch in the loading direction [-], above zero.
+        mode : {"uniaxial", "equibiaxial", "planar"}
+            Kind of test; planar is also called pure shear.
+
+        Returns
+        -------
+        ndarray
+            Force per undeformed area [N/mm^2], NaN beyond a locking stretch.
+        """
+
+    def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
+        """Whether the energy exists at the state (J > 0, finite, below a locking stretch).
+
+        Parameters
+        ----------
+        I1, J : array_like
+            First invariant F:F + 1 and determinant of F [-], any common shape.
+        """
+        I1, J = np.asarray(I1, dtype=float), np.asarray(J, dtype=float)
+        with np.errstate(all="ignore"):
+            valid = (J > 0.0) & np.isfinite(I1) & np.isfinite(J)
+            return valid & self._below_locking(I1, np.where(J > 0.0, J, 1.0))
+
+    def _below_locking(self, I1: Array, J: Array) -> NDArray[np.bool_] | np.bool_:
+        return np.True_
+
+
+def checked_stretch(stretch: ArrayLike) -> Array:
+    """Stretches as an array, refused at or below zero."""
+    lam = np.asarray(stretch, dtype=float)
+    if not np.all(lam > 0.0):
+        raise ValueError(f"stretch holds {np.min(lam):g}; expected values above zero")
+    return lam
