@@ -1,18 +1,17 @@
 """The command line of treadfem: parses, calls, prints.
 
-Exit codes: 0 done; 2 bad input (one line on stderr, nothing written); 3 did not converge (what was
-accepted is written); 130 interrupted (what was accepted is written, `--resume` goes on from it).
+Exit codes: 0 done; 2 bad input (one line on stderr, nothing written) or a machine that cannot (no
+space, no memory, a folder in use; one line, what was kept stays); 3 did not converge (what was
+accepted is written); 4 finished, but with `--strict` there is a warning; 130 interrupted (what was
+accepted is written, `--resume` goes on from it).
 """
 
 from __future__ import annotations
 
 import argparse
 import importlib.util
-import os
-import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
@@ -21,11 +20,15 @@ from fem import Case, simulate
 from fem.case_errors import CaseError
 from fem.case_reading import parse_override
 from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
-from fem.output_folder import check_output_folder
+from fem.interruption import gently, listening, requested
+from fem.machine_faults import cause, one_line
+from fem.output_folder import check_output_file, chosen_output, output_folder
+from fem.results import FIGURES_FOLDER, RUN_FILES, read_summary
 from fem.resume import resumable
 from fem.template import case_template
+from fem.terminal import lenient_streams, open_standard_descriptors
 
-DONE, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 0, 2, 3, 130
+DONE, BAD_INPUT, NOT_CONVERGED, WARNED, INTERRUPTED = 0, 2, 3, 4, 130
 _STATUS_CODES = {"ok": DONE, "interrupted": INTERRUPTED}
 
 # What draws or fits is imported by the commands that need it: matplotlib takes a second to load.
@@ -40,22 +43,33 @@ class _Parser(argparse.ArgumentParser):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
+    if argv is None:
+        open_standard_descriptors()
     words = list(sys.argv[1:] if argv is None else argv)
-    try:
+    with lenient_streams() as (out, err), listening(to_the_end=argv is None):
         arguments = _parser(words[0] if words else "").parse_args(words)
-        code = int(arguments.command(arguments))
-        sys.stdout.flush()
+        code = _guarded(arguments)
+        out.flush()
+        if out.lost:
+            print(f"treadfem: {out.lost}", file=err)
+            # For some commands what they print is all they make.
+            code = BAD_INPUT if arguments.command in (_check, _template) else code
         return code
-    except CaseError as error:
-        print(f"treadfem: {error}", file=sys.stderr)
-        return BAD_INPUT
+
+
+def _guarded(arguments: argparse.Namespace) -> int:
+    """Exit code of a command; what goes wrong by input, user or machine is said in one line."""
+    try:
+        return int(arguments.command(arguments))
     except KeyboardInterrupt:
         print("treadfem: interrupted", file=sys.stderr)
         return INTERRUPTED
-    except BrokenPipeError:
-        # The reader (`| head`) has gone; without this the interpreter complains once more at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return DONE
+    except CaseError as error:
+        line = str(error)
+    except (OSError, MemoryError) as error:
+        line = one_line(error)
+    print(f"treadfem: {line}", file=sys.stderr)
+    return BAD_INPUT
 
 
 def _parser(command: str) -> argparse.ArgumentParser:
@@ -130,31 +144,51 @@ def _add_run(commands: Any) -> None:
         "the result is that of an uninterrupted run",
     )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    _add_strict(parser)
     parser.set_defaults(command=_run)
+
+
+def _add_strict(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--strict", action="store_true", help="end with code 4 if a result comes with a warning"
+    )
 
 
 def _run(arguments: argparse.Namespace) -> int:
     case = _load(arguments)
-    directory = Path(arguments.output or Path("results") / Path(arguments.case).stem)
-    check_output_folder(directory)
+    directory = chosen_output(arguments.output, Path("results") / Path(arguments.case).stem)
+    with output_folder(directory, files=RUN_FILES, folders=[FIGURES_FOLDER]):
+        return _run_in(directory, case, arguments)
+
+
+def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
     checkpoint = directory / CHECKPOINT_FILE
     found = resumable(directory, case) if arguments.resume else "nothing"
     if not arguments.quiet:
         _say_how_it_starts(found, checkpoint, resume=arguments.resume)
     if found == "finished":
         _draw(case, directory, missing_only=True)
-        return DONE
-
-    with _Progress(case, quiet=arguments.quiet) as progress, _Interruptible(progress):
-        result = simulate(
-            case, progress=progress, checkpoint=checkpoint, resume=found == "checkpoint"
-        )
-    result.write(directory)
+        return _code(read_summary(directory), strict=arguments.strict)
+    # Whatever is asked for meanwhile, what was accepted is written.
+    with gently():
+        with _Progress(case, quiet=arguments.quiet) as progress:
+            result = simulate(
+                case, progress=progress, checkpoint=checkpoint, resume=found == "checkpoint"
+            )
+        try:
+            result.write(directory)
+        except OSError as error:
+            goes_on = f"; --resume goes on from {checkpoint}" if checkpoint.is_file() else ""
+            print(
+                f"treadfem: {directory}: {cause(error)}: results not written{goes_on}",
+                file=sys.stderr,
+            )
+            return BAD_INPUT
     _draw(case, directory)
     if result.summary["status"] == "ok":
         # Only now: whatever came before can be interrupted, too.
         remove_checkpoint(checkpoint)
-    return _close(result.summary, directory, quiet=arguments.quiet)
+    return _close(result.summary, directory, quiet=arguments.quiet, strict=arguments.strict)
 
 
 def _draw(case: Case, directory: Path, *, missing_only: bool = False) -> None:
@@ -177,34 +211,6 @@ def _say_how_it_starts(found: str, checkpoint: Path, *, resume: bool) -> None:
         print(f"starting from the beginning; --resume goes on from {checkpoint}", flush=True)
 
 
-class _Interruptible:
-    """Turns Ctrl-C (or a request to terminate) into a stop after the step that is under way.
-
-    A second one stops at once. Either way the simulation hands back what was accepted.
-    """
-
-    _SIGNALS = (signal.SIGINT, signal.SIGTERM)
-
-    def __init__(self, progress: _Progress) -> None:
-        self.progress = progress
-
-    def __enter__(self) -> None:
-        # A process started in the background ignores Ctrl-C, and has to go on ignoring it.
-        self.before = {n: signal.getsignal(n) for n in self._SIGNALS}
-        for number, handler in self.before.items():
-            if handler is not signal.SIG_IGN:
-                signal.signal(number, self._stop)
-
-    def __exit__(self, *exc: object) -> None:
-        for number, handler in self.before.items():
-            signal.signal(number, handler)
-
-    def _stop(self, number: int, frame: object) -> None:
-        if self.progress.stop:
-            raise KeyboardInterrupt
-        self.progress.stop = True
-
-
 class _Progress:
     """Shows how far the simulation is: a bar on a terminal, a line per tenth elsewhere."""
 
@@ -212,7 +218,6 @@ class _Progress:
         self.distance = case.loading.distance_mm
         self.quiet = quiet
         self.tenths = 0
-        self.stop = False
         self.bar: Any = None
 
     def __enter__(self) -> _Progress:
@@ -235,26 +240,35 @@ class _Progress:
             self.tenths = int(10.0 * done / self.distance + 1e-9)
             print(f"{10 * self.tenths:4d} %  {done:8.2f} mm  T_max {state.T_max_C:6.2f} C")
             sys.stdout.flush()
-        if self.stop:
+        if requested():
             raise KeyboardInterrupt
 
 
 _BAR = "{percentage:3.0f} %|{bar}| {n:.1f}/{total:g} mm [{elapsed}<{remaining}]{postfix}"
 
 
-def _close(summary: dict[str, Any], directory: Path, *, quiet: bool) -> int:
-    status = str(summary.get("status", "not converged"))
-    code = _STATUS_CODES.get(status, NOT_CONVERGED)
+def _close(summary: dict[str, Any], directory: Path, *, quiet: bool, strict: bool) -> int:
     if not quiet:
         print(_summary_table(summary))
         print(f"results in {directory}")
-    if code != DONE:
+    code = _code(summary, strict=strict)
+    if code not in (DONE, WARNED):
+        status = str(summary.get("status"))
         advice = [str(summary[key]) for key in ("reason", "advice") if summary.get(key)]
-        if code == INTERRUPTED and (directory / CHECKPOINT_FILE).exists():
+        if (directory / CHECKPOINT_FILE).exists() and status != "not converged":
             advice.append("--resume goes on from there")
         text = ": ".join([f"treadfem: {status}", "; ".join(advice)] if advice else [status])
         print(" ".join(text.split()), file=sys.stderr)
     return code
+
+
+def _code(summary: dict[str, Any], *, strict: bool) -> int:
+    """Exit code of a run; its warnings are printed."""
+    warnings = summary.get("warnings") or []
+    for warning in warnings:
+        print(" ".join(f"treadfem: warning: {warning}".split()), file=sys.stderr)
+    code = _STATUS_CODES.get(str(summary.get("status", "not converged")), NOT_CONVERGED)
+    return WARNED if code == DONE and warnings and strict else code
 
 
 def _summary_table(summary: dict[str, Any]) -> str:
@@ -294,10 +308,9 @@ def _sweep(arguments: argparse.Namespace) -> int:
     from validation.sweeps.sweep_progress import SweepBar, closing_line
     from validation.sweeps.sweep_workers import SchedulerLostError
 
-    directory = Path(arguments.output or Path("results") / Path(arguments.study).stem)
-    check_output_folder(directory)
+    directory = chosen_output(arguments.output, Path("results") / Path(arguments.study).stem)
     try:
-        with _terminable(), SweepBar() as bar:
+        with SweepBar() as bar:
             state = sweep(
                 arguments.study,
                 directory,
@@ -313,16 +326,6 @@ def _sweep(arguments: argparse.Namespace) -> int:
     return DONE if state.all_ok else NOT_CONVERGED
 
 
-@contextmanager
-def _terminable() -> Iterator[None]:
-    """Let a request to terminate end the block as Ctrl-C does."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
 # -- compare -----------------------------------------------------------------------------------
 
 
@@ -335,7 +338,6 @@ def _add_compare(commands: Any) -> None:
         "-o",
         "--output",
         metavar="DIR",
-        default="results/comparison",
         help="folder of tables and pictures (default: results/comparison)",
     )
     parser.set_defaults(command=_compare)
@@ -345,9 +347,10 @@ def _compare(arguments: argparse.Namespace) -> int:
     from calibration.errors import DataError
     from validation.measured.compare_command import write_comparison
 
-    check_output_folder(arguments.output)
+    directory = chosen_output(arguments.output, Path("results/comparison"))
     try:
-        print(write_comparison(arguments.measured, arguments.results, arguments.output))
+        with output_folder(directory):
+            print(write_comparison(arguments.measured, arguments.results, directory))
     except DataError as error:
         print(f"treadfem: {error}", file=sys.stderr)
         return BAD_INPUT
@@ -417,12 +420,18 @@ def _add_figure(commands: Any) -> None:
     parser.add_argument(
         "--measured", metavar="FILE.csv", help="measurements to draw into figures 11 and 12"
     )
-    parser.set_defaults(command=_figure)
+    parser.set_defaults(command=partial(_in_folder, _figure))
 
 
 def _add_table(commands: Any) -> None:
     parser = _add_numbered(commands, "table")
-    parser.set_defaults(command=_table)
+    parser.set_defaults(command=partial(_in_folder, _table))
+
+
+def _in_folder(command: Callable[[argparse.Namespace], int], arguments: argparse.Namespace) -> int:
+    """Execute a command while its folder is nobody else's."""
+    with output_folder(arguments.output, folders=("made", "runs")):
+        return command(arguments)
 
 
 def _add_numbered(commands: Any, what: str) -> argparse.ArgumentParser:
@@ -486,8 +495,7 @@ def _table(arguments: argparse.Namespace) -> int:
 
 
 def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list[int]:
-    """Numbers that are asked for, once it is clear that they can be made and written."""
-    check_output_folder(arguments.output)
+    """Numbers that are asked for, once it is clear that they can be made."""
     if arguments.number == "all":
         return sorted(known)
     if arguments.number not in map(str, known):
@@ -500,13 +508,11 @@ def _add_claims(commands: Any) -> None:
     text = "Check the paper's statements against the simulation, one by one."
     parser = commands.add_parser("claims", help="check the paper's claims", description=text)
     _add_folder(parser, "ledger and its runs")
-    parser.set_defaults(command=_claims)
+    parser.set_defaults(command=partial(_in_folder, _claims))
 
 
 def _claims(arguments: argparse.Namespace) -> int:
     from validation.claims.write import write_claims
-
-    check_output_folder(arguments.output)
 
     def make() -> Path:
         _, text = write_claims(arguments.output)
@@ -519,13 +525,12 @@ def _add_sensitivity(commands: Any) -> None:
     text = "Vary what the paper leaves open, one parameter at a time."
     parser = commands.add_parser("sensitivity", help="vary what is left open", description=text)
     _add_folder(parser, "table, picture and runs")
-    parser.set_defaults(command=_sensitivity)
+    parser.set_defaults(command=partial(_in_folder, _sensitivity))
 
 
 def _sensitivity(arguments: argparse.Namespace) -> int:
     from validation.sensitivity.write import write_sensitivity
 
-    check_output_folder(arguments.output)
     make = partial(write_sensitivity, arguments.output)
     return DONE if _made(arguments, "sensitivity", make, show=True) else NOT_CONVERGED
 
@@ -543,7 +548,6 @@ def _made(
     from validation.sweeps.study_runs import StudyError
 
     directory = Path(arguments.output)
-    directory.mkdir(parents=True, exist_ok=True)
     try:
         made = kept(name, directory, make, inputs, again=arguments.again)
     except StudyError as error:
@@ -585,10 +589,7 @@ def _report(arguments: argparse.Namespace) -> int:
             found="no such folder",
             expected="what make figures made",
         )
-    if path.is_dir():
-        raise CaseError(file=str(path), key="-o", found="a folder", expected="an HTML file")
-    check_output_folder(path.parent)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    check_output_file(path)
     print(write_report(figures, path))
     return DONE
 
@@ -617,17 +618,12 @@ def _export(arguments: argparse.Namespace) -> int:
     from validation.calculix.export_deck import friction_remark, write_deck
 
     case = _load(arguments)
-    path = Path(arguments.output or f"{Path(arguments.case).stem}.inp")
-    if path.is_dir() or not path.parent.is_dir():
-        found = f"{path}: a folder" if path.is_dir() else f"no folder {path.parent}"
+    path = chosen_output(arguments.output, Path(f"{Path(arguments.case).stem}.inp"))
+    check_output_file(path)
+    if not path.parent.is_dir():
+        found = f"no folder {path.parent}"
         raise CaseError(file=str(path), key="-o", found=found, expected="a file in a folder")
-    try:
-        write_deck(case, path)
-    except OSError as error:
-        found = error.strerror or str(error)
-        raise CaseError(
-            file=str(path), key="-o", found=found, expected="a file that can be written"
-        ) from None
+    write_deck(case, path)
     if remark := friction_remark(case):
         print(f"treadfem: {remark}", file=sys.stderr)
     print(path)

@@ -10,6 +10,7 @@ from calibration.conductance import ALSO
 from calibration.errors import DataError
 from calibration.friction import LAWS
 from calibration.outcomes import (
+    PARAMETERS_FILE,
     Outcome,
     calibrate_conductance,
     calibrate_friction,
@@ -18,12 +19,12 @@ from calibration.outcomes import (
     calibrate_wlf,
 )
 from calibration.partition import MOST_SIMULATIONS
-from calibration.simulation_store import SimulationStoppedError
+from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStoppedError
 from calibration.stress_models import STRESS_MODELS
 from fem.case import Case
 from fem.case_errors import CaseError
 from fem.case_reading import parse_override
-from fem.output_folder import check_output_folder
+from fem.output_folder import chosen_output, output_folder
 from materials.hyperelastic import MODES
 from materials.wlf import WLF
 
@@ -51,18 +52,18 @@ def add_arguments(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Run one calibration; bad data end with one line and exit code 2."""
     directory = _folder(arguments)
-    try:
-        outcome: Outcome = arguments.calibrate(arguments)
-        check_output_folder(directory)
-    except ValueError as error:
-        # DataError and CaseError say the file; other messages are about the options
-        place = "" if isinstance(error, DataError | CaseError) else f"{arguments.data}: "
-        print(f"treadfem: {place}{error}", file=sys.stderr)
-        return BAD_INPUT
-    except SimulationStoppedError as error:
-        print(f"treadfem: {error} (finished simulations stay in {directory})", file=sys.stderr)
-        return NOT_CONVERGED
-    outcome.write(directory)
+    with output_folder(directory, files=[PARAMETERS_FILE], folders=[SIMULATIONS_FOLDER]):
+        try:
+            outcome: Outcome = arguments.calibrate(arguments)
+        except ValueError as error:
+            # DataError and CaseError say the file; other messages are about the options
+            place = "" if isinstance(error, DataError | CaseError) else f"{arguments.data}: "
+            print(f"treadfem: {place}{error}", file=sys.stderr)
+            return BAD_INPUT
+        except SimulationStoppedError as error:
+            print(f"treadfem: {error} (finished simulations stay in {directory})", file=sys.stderr)
+            return NOT_CONVERGED
+        outcome.write(directory)
     if not arguments.quiet:
         print(outcome.text)
         print(f"results in {directory}")
@@ -70,7 +71,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _folder(arguments: argparse.Namespace) -> Path:
-    return Path(arguments.output or Path("results") / "calibration" / arguments.kind)
+    default = Path("results") / "calibration" / arguments.kind
+    return chosen_output(arguments.output, default)
 
 
 def _add_hyperelastic(parser: argparse.ArgumentParser) -> None:
@@ -172,12 +174,10 @@ def _add_partition(parser: argparse.ArgumentParser) -> None:
 
     def calibrate(arguments: argparse.Namespace) -> Outcome:
         case = Case.from_toml(arguments.case, dict(map(parse_override, arguments.overrides)))
-        directory = _folder(arguments)
-        check_output_folder(directory)
         return calibrate_partition(
             arguments.data,
             case,
-            directory,
+            _folder(arguments),
             profile=arguments.profile,
             simulations=arguments.simulations,
             intervals=arguments.intervals,

@@ -30,11 +30,13 @@ from calibration.plots import (
 )
 from calibration.rig_file import read_contact_surface, read_heating_rig
 from calibration.simulation_progress import SimulationProgress
-from calibration.simulation_store import SimulationStore
+from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStore
 from calibration.tables import read_table
 from calibration.wlf import fit_wlf, shift_sweeps
-from fem.atomic_files import replacing
+from fem.atomic_files import staged_directory
 from fem.case import Case
+
+PARAMETERS_FILE = "parameters.toml"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,11 +55,10 @@ class Outcome:
     files: Mapping[str, bytes]
 
     def write(self, directory: Path) -> None:
-        """Write the files, each of them whole or not at all."""
-        directory.mkdir(parents=True, exist_ok=True)
-        for name, content in self.files.items():
-            with replacing(directory / name) as temporary:
-                temporary.write_bytes(content)
+        """Write the files, all of them or none; the parameters arrive last."""
+        with staged_directory(directory, last=PARAMETERS_FILE) as stage:
+            for name, content in self.files.items():
+                (stage / name).write_bytes(content)
 
 
 def calibrate_hyperelastic(
@@ -196,7 +197,7 @@ def calibrate_partition(
     The simulations are kept in `directory` as they finish (options of `fit_partition`).
     """
     with SimulationProgress(quiet=quiet) as progress:
-        store = SimulationStore(directory / "simulations", progress)
+        store = SimulationStore(directory / SIMULATIONS_FOLDER, progress)
         found = fit_partition(path, case, store, **options)
     result = _with_intervals(found.result, intervals)
     result = replace(result, metadata={**result.metadata, "case_file": Path(case.source).name})
@@ -239,7 +240,7 @@ def _with_intervals(result: FitResult, kind: str) -> FitResult:
 
 
 def _files(result: FitResult, points: pd.DataFrame) -> dict[str, bytes]:
-    return {"parameters.toml": parameter_text(result).encode(), "fit.csv": _csv(points)}
+    return {PARAMETERS_FILE: parameter_text(result).encode(), "fit.csv": _csv(points)}
 
 
 def _csv(table: pd.DataFrame) -> bytes:

@@ -15,15 +15,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.atomic_files import write_text
+from fem.atomic_files import remove_remains, write_text
 from fem.case import Case
+from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
 from fem.columns import SURFACE
 from fem.outcome import INTERRUPTED, OK
 from fem.program_version import program_version
-from fem.results import SURFACE_FILE, Result, read_summary, read_table
+from fem.results import SURFACE_FILE, read_summary, read_table
+from fem.resume import gone_on_with
 from fem.simulate import simulate
 
 Array = NDArray[np.float64]
+SIMULATIONS_FOLDER = "simulations"
 MARKER = "simulation.json"
 
 
@@ -87,8 +90,10 @@ class SimulationStore:
 
     def _simulate(self, case: Case, label: str, folder: Path) -> None:
         (folder / MARKER).unlink(missing_ok=True)
+        remove_remains(folder)
         callback = None if self.progress is None else self.progress(label, case)
-        result: Result = simulate(case, progress=callback)
+        checkpoint = folder / CHECKPOINT_FILE
+        result = gone_on_with(simulate, case, checkpoint, progress=callback)
         status = result.summary["status"]
         if status == INTERRUPTED:
             raise KeyboardInterrupt
@@ -96,6 +101,7 @@ class SimulationStore:
             why = "; ".join(str(result.summary.get(key, "")) for key in ("reason", "advice"))
             raise SimulationStoppedError(f"the simulation of {label} is {status}: {why}")
         result.write(folder)
+        remove_checkpoint(checkpoint)
         self.simulated += 1
 
 

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+
+from fem.interruption import deferring
+
+#: Every unfinished file and folder begins with this; nothing that is finished does.
+UNFINISHED = ".unfinished-"
 
 
 def write_text(path: str | Path, text: str) -> None:
@@ -25,22 +31,26 @@ def replacing(path: str | Path) -> Iterator[Path]:
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    # A name of its own length: that of the file may be as long as the system allows.
+    number, name = tempfile.mkstemp(prefix=UNFINISHED, suffix=path.suffix, dir=path.parent)
+    os.close(number)
+    temporary = Path(name)
     try:
+        temporary.chmod(0o666 & ~_umask())
         yield temporary
-        with temporary.open("rb+") as file:
-            os.fsync(file.fileno())
+        _on_disk(temporary)
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
 
 
-def remove(path: str | Path) -> None:
-    """Remove a file that `replacing` wrote, and what killed processes left of writing it."""
-    path = Path(path)
-    path.unlink(missing_ok=True)
-    for remains in path.parent.glob(f".{path.stem}.*{path.suffix}"):
-        remains.unlink(missing_ok=True)
+def remove_remains(directory: str | Path) -> None:
+    """Remove what killed programs left half-written in a folder (of nobody who is still at it)."""
+    for remains in Path(directory).glob(f"{UNFINISHED}*"):
+        if remains.is_dir() and not remains.is_symlink():
+            shutil.rmtree(remains, ignore_errors=True)
+        else:
+            remains.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -66,37 +76,43 @@ def staged_directory(
     # Inside a folder that exists: it may be a mounted disk, and its parent closed to the user.
     place = target if target.is_dir() else target.parent
     place.mkdir(parents=True, exist_ok=True)
-    stage = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=place))
+    stage = Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=place))
     # mkdtemp makes the folder private to its owner; the result has the usual permissions.
     stage.chmod(0o777 & ~_umask())
     try:
         yield stage
-        if place == target:
-            _merge(stage, target, outdated, last)
-        else:
-            os.replace(stage, target)
+        files = sorted(p.relative_to(stage) for p in stage.rglob("*") if p.is_file())
+        for name in files:
+            _on_disk(stage / name)
+        with deferring():
+            if place == target:
+                _merge(stage, target, files, outdated, last)
+            else:
+                os.replace(stage, target)
     finally:
         shutil.rmtree(stage, ignore_errors=True)
 
 
-def _merge(stage: Path, target: Path, outdated: Sequence[str], last: str | None) -> None:
+def _merge(
+    stage: Path, target: Path, files: list[Path], outdated: Sequence[str], last: str | None
+) -> None:
+    for name in files:
+        # Before anything is touched.
+        if (target / name).is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(target / name))
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
     if last is not None:
         (target / last).unlink(missing_ok=True)
     for pattern in outdated:
         for old in target.glob(pattern):
             old.unlink()
-    files = sorted(p.relative_to(stage) for p in stage.rglob("*") if p.is_file())
     for name in sorted(files, key=lambda name: str(name) == last):
-        (target / name).parent.mkdir(parents=True, exist_ok=True)
         os.replace(stage / name, target / name)
-    _remove_remains(stage, target)
 
 
-def _remove_remains(stage: Path, target: Path) -> None:
-    """Remove the temporary folders that killed processes left inside the target."""
-    for remains in target.glob(f"{stage.name[: -len('12345678')]}????????"):
-        if remains != stage and remains.is_dir():
-            shutil.rmtree(remains, ignore_errors=True)
+def _on_disk(path: Path) -> None:
+    with path.open("rb+") as file:
+        os.fsync(file.fileno())
 
 
 def _umask() -> int:

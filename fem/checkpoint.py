@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.atomic_files import remove, replacing
+from fem.atomic_files import replacing
 from fem.case import Case
 from fem.case_errors import CaseError, describe
 from fem.packing import PackingError, pack, unpack
@@ -107,8 +107,9 @@ def write_checkpoint(path: str | Path, case: Case, content: Any) -> None:
     }
     text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
     members: dict[str, Any] = {_ABOUT: text, **arrays}
-    with replacing(path) as temporary:
-        np.savez(temporary, **members)
+    # Into an open file: NumPy would add .npz to a name that has another ending.
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        np.savez(file, **members)
 
 
 def read_checkpoint(path: str | Path, case: Case, kind: type[T]) -> T:
@@ -137,8 +138,8 @@ def check_checkpoint(path: str | Path, case: Case) -> tuple[dict[str, Any], dict
 
 
 def remove_checkpoint(path: str | Path) -> None:
-    """Remove the checkpoint of a finished run and what killed runs left of writing it."""
-    remove(path)
+    """Remove the checkpoint of a finished run."""
+    Path(path).unlink(missing_ok=True)
 
 
 def _contents(path: Path) -> tuple[dict[str, Any], dict[str, Array]]:

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
+from fem.interruption import at_step_ends
+from fem.machine_faults import OUT_OF_MEMORY
 from fem.newton import Failure
 
 OK = "ok"
 NOT_CONVERGED = "not converged"
 INTERRUPTED = "interrupted"
+#: The machine could not go on: with more memory the same run may.
+STOPPED = "stopped"
 
 ADVICE = {
     Failure.ITERATIONS: (
@@ -52,3 +57,14 @@ def failed(failure: Failure, detail: str, where: str) -> Outcome:
     """Outcome of a run that could not go on."""
     reason = f"{failure.value} at {where}" + (f" ({detail})" if detail else "")
     return Outcome(status=NOT_CONVERGED, reason=reason, advice=ADVICE[failure])
+
+
+def stoppable(steps: Callable[[], Outcome]) -> Outcome:
+    """Outcome of the steps of a run, which the user or the machine may end between them."""
+    try:
+        with at_step_ends():
+            return steps()
+    except KeyboardInterrupt:
+        return Outcome(status=INTERRUPTED, reason="interrupted by the user")
+    except MemoryError:
+        return Outcome(status=STOPPED, reason="out of memory", advice=OUT_OF_MEMORY)

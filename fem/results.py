@@ -25,6 +25,9 @@ SURFACE_FILE = "surface.csv"
 SUMMARY_JSON = "summary.json"
 SUMMARY_CSV = "summary.csv"
 FIELD_FILES = ("block_*.vtu", "road_*.vtu", "block.pvd", "road.pvd")
+FIGURES_FOLDER = "figures"
+#: Files of every run, fields or not.
+RUN_FILES = (CASE_FILE, LOG_FILE, HISTORY_FILE, SURFACE_FILE, SUMMARY_CSV, SUMMARY_JSON)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -101,7 +104,8 @@ class Result:
 
         Everything is written into a temporary folder first; see `staged_directory`.
         """
-        outdated = FIELD_FILES
+        # Figures of an earlier result are drawn anew from this one, or they are not there.
+        outdated = (*FIELD_FILES, f"{FIGURES_FOLDER}/*.png")
         with staged_directory(directory, outdated=outdated, last=SUMMARY_JSON) as stage:
             (stage / CASE_FILE).write_text(self.case.to_toml(), encoding="utf-8")
             (stage / LOG_FILE).write_text("".join(f"{x}\n" for x in self.log), encoding="utf-8")

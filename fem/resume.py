@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from fem.case import Case
 from fem.case_errors import CaseError
-from fem.checkpoint import CHECKPOINT_FILE, CheckpointError, check_checkpoint, first_difference
+from fem.checkpoint import (
+    CHECKPOINT_FILE,
+    CheckpointError,
+    check_checkpoint,
+    first_difference,
+    remove_checkpoint,
+)
 from fem.outcome import OK
-from fem.results import CASE_FILE, read_summary
+from fem.results import CASE_FILE, Result, read_summary
 
 
 def resumable(directory: str | Path, case: Case) -> Literal["checkpoint", "finished", "nothing"]:
@@ -29,6 +36,17 @@ def resumable(directory: str | Path, case: Case) -> Literal["checkpoint", "finis
         return "nothing"
     _check_same_case(directory / CASE_FILE, case)
     return "finished"
+
+
+def gone_on_with(
+    run: Callable[..., Result], case: Case, checkpoint: Path, **options: Any
+) -> Result:
+    """Result of a case, from its checkpoint on if there is one that can be used."""
+    try:
+        return run(case, checkpoint=checkpoint, resume=True, **options)
+    except CheckpointError:
+        remove_checkpoint(checkpoint)
+        return run(case, checkpoint=checkpoint, **options)
 
 
 def _finished(directory: Path) -> bool:

@@ -17,7 +17,7 @@ from fem.case import Case
 from fem.checkpoint import Checkpoint, notes
 from fem.heat import HeatModel
 from fem.model_parts import Progress, mesh_of
-from fem.outcome import INTERRUPTED, OK, Outcome
+from fem.outcome import OK, Outcome, stoppable
 from fem.program_version import program_version
 from fem.recorder import temperature_columns
 from fem.results import Result
@@ -84,13 +84,14 @@ class _RigidRun:
 
     def run(self) -> Outcome:
         """Slide to the end, or until the user interrupts."""
-        heat, done = self.point.heat, self.point.steps
-        try:
+
+        def steps() -> Outcome:
+            heat, done = self.point.heat, self.point.steps
             for step in slide_rigid_block(self.model, self.sliding, heat, done):
                 self._accept(step)
-        except KeyboardInterrupt:
-            return Outcome(status=INTERRUPTED, reason="interrupted by the user")
-        return Outcome(status=OK)
+            return Outcome(status=OK)
+
+        return stoppable(steps)
 
     def _accept(self, step: RigidStep) -> None:
         self.heat, self.time, self.position = step.heat, step.time_s, step.position_mm
@@ -202,7 +203,7 @@ class _RigidRun:
         history, made = pd.DataFrame(self.rows), self.heat.generated
         summary: dict[str, Any] = {"status": outcome.status}
         if outcome.reason:
-            summary |= {"reason": outcome.reason}
+            summary |= {"reason": outcome.reason, "advice": outcome.advice}
         summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
         summary |= sliding_means(history, self.sliding.velocity)
         return summary | {
@@ -251,7 +252,7 @@ def simulate_rigid(
     if kept is not None:
         run.go_on_from(kept)
     outcome = run.run()
-    if checkpoint is not None and outcome.status != OK:
+    if checkpoint is not None:
         checkpoint.keep(run.kept, now=True)
     if not run.snapshots or run.snapshots[-1].sliding_distance_mm < run.distance:
         run.snapshot()

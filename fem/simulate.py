@@ -21,7 +21,7 @@ from fem.linear_solver import linear_solver
 from fem.mechanics import BlockMechanics
 from fem.mesh import BlockMesh
 from fem.model_parts import Progress, mesh_of
-from fem.outcome import INTERRUPTED, OK, Outcome, failed
+from fem.outcome import OK, Outcome, failed, stoppable
 from fem.program_version import program_version
 from fem.programme import Phase, programme
 from fem.recorder import Recorder
@@ -152,14 +152,15 @@ class _Run:
 
     def run(self) -> Outcome:
         """Go through all phases; the outcome says whether the end was reached."""
-        try:
+
+        def phases() -> Outcome:
             for number, phase in enumerate(programme(self.case)):
                 outcome = self._phase(number, phase)
                 if outcome.status != OK:
                     return outcome
-        except KeyboardInterrupt:
-            return Outcome(status=INTERRUPTED, reason="interrupted by the user")
-        return Outcome(status=OK)
+            return Outcome(status=OK)
+
+        return stoppable(phases)
 
     def _phase(self, number: int, phase: Phase) -> Outcome:
         if number < self.point.phase:
@@ -257,7 +258,8 @@ def simulate(
     if kept is not None:
         run.go_on_from(kept)
     outcome = run.run()
-    if kept_in is not None and outcome.status != OK:
+    if kept_in is not None:
+        # At the end, too: the disk may be full when the results are to be written.
         kept_in.keep(run.kept, now=True)
     recorder = run.recorder
     distance = recorder.rows[-1]["sliding_distance_mm"] if recorder.rows else 0.0

@@ -63,7 +63,7 @@ class StubSimulation:
 
     def write(self, directory):
         directory = Path(directory)
-        directory.mkdir(parents=True)
+        directory.mkdir(parents=True, exist_ok=True)
         (directory / "summary.json").write_text(json.dumps(self.summary))
 
 
@@ -360,7 +360,7 @@ def test_figure_that_is_up_to_date_is_left_alone_unless_asked_for_again(tmp_path
         (("claims", "-o", "taken"), "taken: -o"),
         (("sensitivity", "-o", "taken"), "taken: -o"),
         (("report", "--figures", "nowhere"), "nowhere: --figures: found no such folder"),
-        (("report", "--figures", ".", "-o", "."), ".: -o: found a folder, expected an HTML file"),
+        (("report", "--figures", ".", "-o", "."), ".: -o: found a folder, expected a file"),
     ],
     ids=" ".join,
 )

@@ -6,11 +6,13 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+from fem.output_folder import output_folder
 from fem.program_version import program_version
-from validation.sweeps.study import read_study
-from validation.sweeps.sweep_case import SweepTask, finished_outcome, forget
+from fem.results import SUMMARY_CSV
+from validation.sweeps.study import StudyCase, read_study
+from validation.sweeps.sweep_case import RUNS_FOLDER, SweepTask, finished_outcome, forget
 from validation.sweeps.sweep_progress import SweepProgress
-from validation.sweeps.sweep_table import SweepTable
+from validation.sweeps.sweep_table import TIMINGS_CSV, SweepTable
 from validation.sweeps.sweep_workers import executor, number_of_workers
 
 
@@ -33,8 +35,8 @@ def sweep(
         Folder for `summary.csv`, `timings.csv` and `runs/<case>/`. Workers on other machines have
         to see it under the same path.
     workers : int, optional
-        Number of local processes, one thread each; by default one per core. With 1 (or without
-        dask.distributed) the cases run one after the other in this process.
+        Number of local processes, one thread each; by default one per core. With 1
+        the cases run one after the other in this process.
     scheduler : str, optional
         Address of a running dask scheduler, used instead of local processes.
     resume : bool
@@ -56,12 +58,26 @@ def sweep(
     """
     cases = read_study(study)
     workers = number_of_workers(workers, scheduler)
-    directory = Path(directory).absolute()
+    with output_folder(
+        directory, files=(SUMMARY_CSV, TIMINGS_CSV), folders=[RUNS_FOLDER]
+    ) as folder:
+        return _sweep(cases, folder.absolute(), workers, scheduler, resume, progress)
+
+
+def _sweep(
+    cases: list[StudyCase],
+    directory: Path,
+    workers: int,
+    scheduler: str | None,
+    resume: bool,
+    progress: Callable[[SweepProgress], None] | None,
+) -> SweepProgress:
+    """Run the cases of a study in a folder that nobody else uses."""
     tasks = {
         case.name: SweepTask(
             name=case.name,
             case=case.case,
-            folder=str(directory / "runs" / case.name),
+            folder=str(directory / RUNS_FOLDER / case.name),
             version=program_version(),
         )
         for case in cases
@@ -84,7 +100,7 @@ def sweep(
     with executor(workers=max(1, min(workers, len(waiting))), scheduler=scheduler) as execute:
         for task in tasks.values():
             forget(task, marker=task.name not in table.rows, checkpoint=not resume)
-        (directory / "runs").mkdir(parents=True, exist_ok=True)
+        (directory / RUNS_FOLDER).mkdir(exist_ok=True)
         table.write()
         report()
         for outcome in execute(waiting):

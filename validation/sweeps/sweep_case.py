@@ -9,22 +9,26 @@ worker or a resumed sweep goes on, to the same result.
 from __future__ import annotations
 
 import json
-import shutil
 import threading
 import time
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from fem.atomic_files import write_text
 from fem.case import Case
-from fem.checkpoint import CHECKPOINT_FILE, CheckpointError, remove_checkpoint
+from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
 from fem.outcome import INTERRUPTED, NOT_CONVERGED, OK
+from fem.output_folder import output_folder
 from fem.program_version import program_version
-from fem.results import CASE_FILE, Result, read_summary
+from fem.results import CASE_FILE, FIGURES_FOLDER, RUN_FILES, read_summary
+from fem.resume import gone_on_with
 from fem.simulate import simulate
 
+RUNS_FOLDER = "runs"
 MARKER = "sweep.json"
 FAILURE_LOG = "failure.log"
 #: Status of a case that raised an error or whose worker died.
@@ -34,6 +38,8 @@ FINAL = (OK, NOT_CONVERGED)
 
 # A worker of a foreign cluster may have several threads; matplotlib and the BLAS setting allow one.
 _ONE_AT_A_TIME = threading.Lock()
+#: How long to wait for another worker that has the folder of a case [s].
+_GIVEN_UP_S = 15.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,11 +98,12 @@ def run_task(task: SweepTask) -> CaseOutcome:
         # Of this thread only: a worker also talks to its scheduler meanwhile.
         wall, cpu = time.perf_counter(), time.thread_time()
         try:
-            summary = _simulated(task)
+            with _own_folder(task):
+                summary = _simulated(task)
+                timing = {"wall_s": time.perf_counter() - wall, "cpu_s": time.thread_time() - cpu}
+                _mark(task, timing)
         except Exception as error:
             return _failure(task, error)
-        timing = {"wall_s": time.perf_counter() - wall, "cpu_s": time.thread_time() - cpu}
-        _mark(task, timing)
         return CaseOutcome(name=task.name, summary=summary, timing=timing)
 
 
@@ -116,17 +123,16 @@ def finished_outcome(task: SweepTask) -> CaseOutcome | None:
 
 
 def forget(task: SweepTask, *, marker: bool = True, checkpoint: bool = True) -> None:
-    """Remove the marker, the checkpoint, and what a killed worker left half-written."""
-    folder = Path(task.folder)
+    """Remove the marker and the checkpoint of an earlier run."""
     if marker:
-        (folder / MARKER).unlink(missing_ok=True)
+        (Path(task.folder) / MARKER).unlink(missing_ok=True)
     if checkpoint:
-        remove_checkpoint(folder / CHECKPOINT_FILE)
-    for leftover in (*folder.parent.glob(f".{folder.name}.*"), *folder.glob(f".{folder.name}.*")):
-        shutil.rmtree(leftover, ignore_errors=True)
+        remove_checkpoint(Path(task.folder) / CHECKPOINT_FILE)
 
 
-def _simulated(task: SweepTask) -> dict[str, Any]:
+@contextmanager
+def _own_folder(task: SweepTask) -> Iterator[None]:
+    """Have the folder of a run to oneself, and without what a killed worker left half-written."""
     if program_version() != task.version:
         raise RuntimeError(
             f"the worker runs treadfem {program_version()}, the sweep was started by {task.version}"
@@ -134,9 +140,16 @@ def _simulated(task: SweepTask) -> dict[str, Any]:
     folder = Path(task.folder)
     if not _sees_the_sweep(folder):
         raise RuntimeError(f"the worker does not see {task.folder}: it needs a shared disk")
+    # A worker that was given up may need a moment to notice it.
+    with output_folder(folder, files=RUN_FILES, folders=[FIGURES_FOLDER], patience_s=_GIVEN_UP_S):
+        yield
+
+
+def _simulated(task: SweepTask) -> dict[str, Any]:
+    folder = Path(task.folder)
     # Again, since a worker may have died on this case a minute ago.
     forget(task, checkpoint=False)
-    result = _gone_on_with(task.case, folder / CHECKPOINT_FILE)
+    result = gone_on_with(simulate, task.case, folder / CHECKPOINT_FILE)
     if result.summary["status"] == INTERRUPTED:
         raise KeyboardInterrupt
     result.write(folder)
@@ -146,18 +159,10 @@ def _simulated(task: SweepTask) -> dict[str, Any]:
 
         write_run_figures(folder)
     (folder / FAILURE_LOG).unlink(missing_ok=True)
-    remove_checkpoint(folder / CHECKPOINT_FILE)
+    if result.summary["status"] in FINAL:
+        remove_checkpoint(folder / CHECKPOINT_FILE)
     # As it will be read again by a resumed sweep: the two tables have to be the same.
     return read_summary(folder)
-
-
-def _gone_on_with(case: Case, checkpoint: Path) -> Result:
-    """Result of a case, from its checkpoint on if there is one that can be used."""
-    try:
-        return simulate(case, checkpoint=checkpoint, resume=True)
-    except CheckpointError:
-        remove_checkpoint(checkpoint)
-        return simulate(case, checkpoint=checkpoint)
 
 
 def _sees_the_sweep(folder: Path) -> bool:

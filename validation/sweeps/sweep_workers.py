@@ -5,23 +5,19 @@ from __future__ import annotations
 import importlib.util
 import logging
 import os
-import signal
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 from fem.case_errors import CaseError
+from validation.sweeps.local_pool import LocalPool, local_pool
 from validation.sweeps.sweep_case import FAILED, CaseOutcome, SweepTask, run_task
 
 #: How often a sweep looks for finished cases [s].
 _LOOK_S = 0.1
 _CONNECT_S = 10.0
-_ONE_THREAD = dict.fromkeys(
-    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"), "1"
-)
 #: A worker died with the outcome still in its memory; the scheduler asks another one.
 _RUN_AGAIN = ("lost", "pending")
 INSTALL = "pip install 'treadfem[sweep]'"
@@ -52,22 +48,25 @@ def number_of_workers(wanted: int | None, scheduler: str | None) -> int:
 
     Raises
     ------
+    TypeError
+        If one of them is of another type.
     CaseError
         If the number makes no sense or dask.distributed is missing.
     """
+    if wanted is not None and (isinstance(wanted, bool) or not isinstance(wanted, int)):
+        raise TypeError(f"workers is {wanted!r}, expected a whole number or None")
+    if scheduler is not None and not isinstance(scheduler, str):
+        raise TypeError(f"scheduler is {scheduler!r}, expected an address or None")
     if wanted is not None and wanted < 1:
         raise CaseError(file="sweep", key="--workers", found=str(wanted), expected="at least 1")
-    if has_dask():
-        return wanted or cores()
-    if scheduler is not None or (wanted or 1) > 1:
-        option = "--scheduler" if scheduler is not None else "--workers"
+    if scheduler is not None and not has_dask():
         raise CaseError(
             file="sweep",
-            key=option,
+            key="--scheduler",
             found="no package dask.distributed",
-            expected=f"it installed ({INSTALL}), or --workers 1",
+            expected=f"it installed ({INSTALL}), or local workers",
         )
-    return 1
+    return wanted or cores()
 
 
 @contextmanager
@@ -90,11 +89,30 @@ def executor(*, workers: int, scheduler: str | None) -> Iterator[Execute]:
     SchedulerLostError
         From the function, if the scheduler goes away while the sweep is running.
     """
-    if scheduler is None and workers == 1:
+    if scheduler is not None:
+        with _client(scheduler) as client:
+            yield lambda tasks: _distributed(client, tasks)
+    elif workers == 1:
         yield lambda tasks: map(run_task, tasks)
     else:
-        with _client(scheduler, workers) as client:
-            yield lambda tasks: _distributed(client, tasks)
+        with local_pool(run_task, workers) as pool:
+            yield lambda tasks: _local(pool, tasks)
+
+
+def _local(
+    pool: LocalPool[SweepTask, CaseOutcome], tasks: Sequence[SweepTask]
+) -> Iterator[CaseOutcome | None]:
+    for news in pool.run(tasks):
+        if news is None:
+            yield None
+        else:
+            task, outcome = news
+            yield _killed(task.name) if outcome is None else outcome
+
+
+def _killed(name: str) -> CaseOutcome:
+    reason = "the worker process died each time it ran this case (out of memory?)"
+    return CaseOutcome(name=name, summary={"status": FAILED, "reason": reason})
 
 
 def _distributed(client: Any, tasks: Sequence[SweepTask]) -> Iterator[CaseOutcome | None]:
@@ -135,22 +153,17 @@ def _outcome(future: Any, name: str) -> CaseOutcome:
         raise SchedulerLostError(reason) from None
     reason = " ".join(f"{type(error).__name__}: {error}".split())
     if type(error).__name__ == "KilledWorker":
-        reason = "the worker process died each time it ran this case (out of memory?)"
+        return _killed(name)
     return CaseOutcome(name=name, summary={"status": FAILED, "reason": reason})
 
 
 @contextmanager
-def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
+def _client(scheduler: str) -> Iterator[Any]:
     from distributed import Client
 
     # dask reports lost and restarted workers in pages of tracebacks; the table says what matters.
     for name in ("distributed", "tornado.application", "asyncio"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
-    if scheduler is None:
-        with _local_cluster(workers) as cluster, Client(cluster) as client:
-            client.register_plugin(_deaf_to_interrupts())
-            yield client
-        return
     try:
         client = Client(scheduler, timeout=_CONNECT_S)
     except (OSError, ValueError, TypeError) as error:
@@ -167,37 +180,3 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
         yield client
     finally:
         client.close(timeout=2.0)
-
-
-@contextmanager
-def _local_cluster(workers: int) -> Iterator[Any]:
-    from distributed import LocalCluster
-
-    with tempfile.TemporaryDirectory(prefix="treadfem-", ignore_cleanup_errors=True) as scratch:
-        cluster = LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            processes=True,
-            # dask serves its state over HTTP; any port does, and only for this machine.
-            dashboard_address="127.0.0.1:0",
-            # Memory is the system's matter.
-            memory_limit=0,
-            silence_logs=logging.CRITICAL,
-            env=_ONE_THREAD,
-            local_directory=scratch,
-        )
-        try:
-            yield cluster
-        finally:
-            cluster.close(timeout=5.0)
-
-
-def _deaf_to_interrupts() -> Any:
-    """Plugin for local workers: Ctrl-C reaches them too, but the sweep is who ends them."""
-    from distributed import WorkerPlugin
-
-    class DeafToInterrupts(WorkerPlugin):  # type: ignore[misc, unused-ignore]
-        def setup(self, worker: Any) -> None:
-            signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-    return DeafToInterrupts()

@@ -294,7 +294,8 @@ def test_damaged_marker_means_not_done(damage, study, simulation):
 def test_leftovers_of_killed_workers_are_removed(study, simulation):
     run(study)
     name = rows()[0]["case"]
-    left = [Path(f"out/runs/.{name}.abc"), Path(f"out/runs/{name}/.{name}.def")]
+    (Path("out/runs") / name / "sweep.json").unlink()
+    left = [Path(f"out/{place}/.unfinished-abc") for place in (".", "runs", f"runs/{name}")]
     other = Path("out/runs/.mine")
     for folder in (*left, other):
         folder.mkdir()
@@ -334,19 +335,21 @@ def test_wrong_study_gives_one_line_and_writes_nothing(study, capsys):
     assert not Path("out").exists()
 
 
-@pytest.mark.parametrize("options", [{"workers": 2}, {"scheduler": "tcp://127.0.0.1:1"}])
-def test_missing_dask_is_said_with_the_command_that_installs_it(options, study, monkeypatch):
+def test_missing_dask_is_said_with_the_command_that_installs_it(study, monkeypatch):
     monkeypatch.setattr(sweep_workers, "has_dask", lambda: False)
     with pytest.raises(CaseError, match=r"pip install 'treadfem\[sweep\]'") as error:
-        sweep(study, "out", **options)
+        sweep(study, "out", scheduler="tcp://127.0.0.1:1")
     assert "\n" not in str(error.value)
     assert not Path("out").exists()
 
 
-@pytest.mark.parametrize("workers", [None, 1])
-def test_without_dask_the_cases_run_one_after_the_other(workers, study, simulation, monkeypatch):
-    monkeypatch.setattr(sweep_workers, "has_dask", lambda: False)
-    assert sweep(study, "out", workers=workers).all_ok
+@pytest.mark.parametrize(
+    "options", [{"workers": "2"}, {"workers": True}, {"workers": 1.0}, {"scheduler": 8786}], ids=str
+)
+def test_wrong_types_are_named(options, study):
+    with pytest.raises(TypeError, match=next(iter(options))):
+        sweep(study, "out", **options)
+    assert not Path("out").exists()
 
 
 # -- progress --------------------------------------------------------------------------------------

@@ -14,7 +14,6 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("distributed", reason="dask.distributed is not installed (extra sweep)")
 psutil = pytest.importorskip("psutil")
 
 ROOT = Path(__file__).parents[3]
@@ -155,7 +154,7 @@ def test_killed_worker_is_replaced_and_its_case_run_again(folder, expected):
     with start(folder, "-o", "out", "--workers", "2") as sweep:
         wait_for(lambda: finished(folder / "out") >= 1, sweep)
         children = psutil.Process(sweep.pid).children(recursive=True)
-        workers = [child for child in children if "spawn_main" in " ".join(child.cmdline())]
+        workers = [child for child in children if "local_pool" in " ".join(child.cmdline())]
         assert len(workers) == 2
         workers[0].kill()
         close(sweep, folder, expected)
