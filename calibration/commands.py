@@ -45,6 +45,10 @@ def add_arguments(commands: Any) -> None:
         kind.add_argument("data", metavar="DATA.csv", help="measurements")
         kind.add_argument("-o", "--output", metavar="DIR", help="folder of the results")
         kind.add_argument("--quiet", action="store_true", help="print nothing but errors")
+        kind.add_argument(
+            "--accept-unusual", action="store_true",
+            help="no warning of numbers outside their usual range (the result file keeps it)",
+        )  # fmt: skip
         add(kind)
         kind.set_defaults(command=run)
 
@@ -65,6 +69,9 @@ def run(arguments: argparse.Namespace) -> int:
             return NOT_CONVERGED
         outcome.write(directory)
     if not arguments.quiet:
+        unusual = () if arguments.accept_unusual else outcome.unusual
+        for line in (*outcome.notes, *unusual):
+            print(f"treadfem: {arguments.data}: {line}", file=sys.stderr)
         print(outcome.text)
         print(f"results in {directory}")
     return 0

@@ -282,8 +282,7 @@ def _completed(result: FitResult, rig: HeatingRig, record: HeatingRecord) -> Fit
     metadata = {
         "kind": "conductance",
         "model": "static heating of the rig, plane",
-        "data_file": record.table.file,
-        "data_sha256": record.table.sha256,
+        **record.table.origin,
         "thermocouples": list(record.names),
         "heater": record.heater,
         "pressure_N_per_mm2": rig.pressure_N_per_mm2,

@@ -328,8 +328,7 @@ def _completed(
     metadata = {
         "kind": "friction",
         "model": law,
-        "data_file": data.table.file,
-        "data_sha256": data.table.sha256,
+        **data.table.origin,
         "pressure_window_N_per_mm2": [float(data.p.min()), float(data.p.max())],
         "velocity_window_mm_per_s": [float(speed.min()), float(speed.max())],
         "normalisation": _normalisation(result) if law == "huemer" else "none needed",

@@ -412,8 +412,7 @@ def _completed(
     metadata = {
         "kind": "hyperelastic",
         "model": model,
-        "data_file": data.table.file,
-        "data_sha256": data.table.sha256,
+        **data.table.origin,
         **data.selection,
         "weights": weights,
         "version": version(),

@@ -49,10 +49,16 @@ class Outcome:
         Summary to print.
     files : dict
         Content by file name.
+    notes : tuple of str
+        How the data were understood, where the file was not plain CSV.
+    unusual : tuple of str
+        Numbers of the data outside their usual range.
     """
 
     text: str
     files: Mapping[str, bytes]
+    notes: tuple[str, ...] = ()
+    unusual: tuple[str, ...] = ()
 
     def write(self, directory: Path) -> None:
         """Write the files, all of them or none; the parameters arrive last."""
@@ -86,7 +92,7 @@ def calibrate_hyperelastic(
         files["models.csv"] = _csv(found)
         files["models.png"] = png(plot_comparison(found, "rmse_N_per_mm2", "N/mm²"))
         text += _compared("all models", found.drop(columns=["n_data", "values"]))
-    return Outcome(text=text, files=files)
+    return _outcome(result, text, files)
 
 
 def calibrate_friction(
@@ -113,7 +119,7 @@ def calibrate_friction(
         found = compare_laws(data, **_without_fixed(options))
         files["laws.csv"] = _csv(found)
         text += _compared("both laws", found)
-    return Outcome(text=text, files=files)
+    return _outcome(result, text, files)
 
 
 def _without_fixed(options: Mapping[str, Any]) -> dict[str, Any]:
@@ -147,7 +153,7 @@ def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None) -> Outcome:
         }
     )
     files |= _files(result, points) | {"fit.png": png(plot_wlf(result))}
-    return Outcome(text=_heading(result, path) + extra, files=files)
+    return _outcome(result, _heading(result, path) + extra, files)
 
 
 def calibrate_conductance(
@@ -180,7 +186,7 @@ def calibrate_conductance(
         result = replace(result, metadata={**result.metadata, "C_of_eq_11": constant.value})
         text += f"\n  C of eq. (11): {constant.value:.4g} +- {constant.stderr:.2g}"
     files = _files(result, points) | {"fit.png": png(plot_conductance(result, record))}
-    return Outcome(text=text, files=files)
+    return _outcome(result, text, files)
 
 
 def calibrate_partition(
@@ -207,7 +213,7 @@ def calibrate_partition(
     made = "none" if not found.simulated else str(found.simulated)
     text = f"{_heading(result, path)}\nconstant kappa at each pressure and velocity:\n"
     text += f"{_shown(found.discrete)}\n{made} of the simulations had to be made"
-    return Outcome(text=text, files=files)
+    return _outcome(result, text, files)
 
 
 def _partition_points(found: PartitionFit) -> pd.DataFrame:
@@ -237,6 +243,11 @@ def _with_intervals(result: FitResult, kind: str) -> FitResult:
     }[kind]()
     limits = {name: [float(low), float(high)] for name, (low, high) in found.items()}
     return replace(result, metadata={**result.metadata, "interval_95": {"kind": kind, **limits}})
+
+
+def _outcome(result: FitResult, text: str, files: Mapping[str, bytes]) -> Outcome:
+    said = {key: tuple(result.metadata.get(key, ())) for key in ("reading", "unusual")}
+    return Outcome(text=text, files=files, notes=said["reading"], unusual=said["unusual"])
 
 
 def _files(result: FitResult, points: pd.DataFrame) -> dict[str, bytes]:

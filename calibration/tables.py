@@ -1,17 +1,19 @@
 """Reading of measured tables, with every refusal naming file, row and column."""
 
-import csv
 import difflib
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any, NoReturn
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.errors import DataError
+from calibration.table_text import read_bytes, read_cells
+from materials.plausible import COLUMNS, Quantity, judge
 
 Array = NDArray[np.float64]
 ABSOLUTE_ZERO_C = -273.15
@@ -31,12 +33,19 @@ class Table:
         Row number of every entry, as a user would find it.
     sha256 : str
         Hash of the file's content.
+    notes : list of str
+        How the file was understood, where it was not plain CSV.
+    unusual : list of str
+        Numbers outside their usual range, found by `numbers` and `judge`; shared with the tables
+        that `select` makes of this one.
     """
 
     frame: pd.DataFrame
     file: str
     rows: NDArray[np.int64]
     sha256: str
+    notes: list[str] = field(default_factory=list)
+    unusual: list[str] = field(default_factory=list)
 
     def __len__(self) -> int:
         return len(self.frame)
@@ -58,14 +67,46 @@ class Table:
                     expected=f"a column named {column}{hint}",
                 )
 
-    def numbers(self, column: str) -> Array:
-        """Values of a column as finite numbers."""
+    @property
+    def origin(self) -> dict[str, Any]:
+        """What a result file says of its data: file, hash, how it was read, what is unusual."""
+        said = {"reading": self.notes, "unusual": self.unusual}
+        found = {key: list(lines) for key, lines in said.items() if lines}
+        return {"data_file": self.file, "data_sha256": self.sha256, **found}
+
+    def judge(self, column: str, values: Array, quantity: Quantity) -> None:
+        """Refuse impossible numbers and keep unusual ones in `unusual`, by `materials.plausible`.
+
+        `values` has an entry per row; `numbers` does this for the columns it knows.
+        """
+        finding = judge(values, quantity)
+        if finding is None:
+            return
+        if finding.impossible:
+            self.refuse_at(finding.index, column, finding.found, finding.expected)
+        line = f"row {self.rows[finding.index]}, column {column}: {finding.sentence}"
+        if line not in self.unusual:
+            self.unusual.append(line)
+
+    def numbers(self, column: str, quantity: Quantity | None = None) -> Array:
+        """Values of a column as finite numbers within the physical range of what they are.
+
+        Parameters
+        ----------
+        column : str
+            Name of the column.
+        quantity : Quantity, optional
+            What the column holds; default what `materials.plausible.COLUMNS` says, else anything.
+        """
         text = self.frame[column]
         values = pd.to_numeric(text, errors="coerce").to_numpy(dtype=float)
         bad = np.flatnonzero(~np.isfinite(values))
         if bad.size:
             entry = str(text.iloc[bad[0]]).strip()
             self.refuse_at(bad[0], column, repr(entry) if entry else "nothing", "a finite number")
+        kind = quantity or COLUMNS.get(column)
+        if kind is not None:
+            self.judge(column, values, kind)
         return values
 
     def words(self, column: str, allowed: Sequence[str]) -> NDArray[np.str_]:
@@ -87,19 +128,14 @@ class Table:
 
     def select(self, keep: NDArray[np.bool_]) -> "Table":
         """The rows where `keep` is true."""
-        return Table(
-            frame=self.frame[keep].reset_index(drop=True),
-            file=self.file,
-            rows=self.rows[keep],
-            sha256=self.sha256,
-        )
+        return replace(self, frame=self.frame[keep].reset_index(drop=True), rows=self.rows[keep])
 
-    def refuse_at(self, index: int, column: str, found: str, expected: str) -> None:
+    def refuse_at(self, index: int, column: str, found: str, expected: str) -> NoReturn:
         self.refuse(row=int(self.rows[index]), column=column, found=found, expected=expected)
 
     def refuse(
         self, *, found: str, expected: str, row: int | None = None, column: str = ""
-    ) -> None:
+    ) -> NoReturn:
         raise DataError(file=self.file, row=row, column=column, found=found, expected=expected)
 
     def require_rows(self, least: int, purpose: str) -> None:
@@ -123,7 +159,8 @@ def read_table(source: str | Path | pd.DataFrame, columns: Sequence[str]) -> Tab
     Parameters
     ----------
     source : path or DataFrame
-        Comma-separated UTF-8 with a header line; empty lines and those after # are skipped.
+        CSV with a header line (see `calibration.table_text` for the variants); empty lines and
+        those after # are skipped.
     columns : sequence of str
         Columns that must be there; others are kept.
     """
@@ -144,47 +181,14 @@ def read_table(source: str | Path | pd.DataFrame, columns: Sequence[str]) -> Tab
 
 
 def _read_csv(path: Path) -> Table:
-    file = str(path)
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise DataError(file=file, found=reason, expected="a readable CSV file") from None
-    try:
-        lines = content.decode("utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise DataError(
-            file=file, found="bytes that are no UTF-8 text", expected="a CSV file"
-        ) from None
-    numbered = [
-        (number, line)
-        for number, line in enumerate(lines, 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not numbered:
-        raise DataError(file=file, found="no header line", expected="a CSV file with a header")
-    entries = list(csv.reader(line for _, line in numbered))
-    header = [name.strip() for name in entries[0]]
-    rows = np.array([number for number, _ in numbered], dtype=np.int64)
-    _check_shape(file, header, entries, rows)
-    frame = pd.DataFrame(entries[1:], columns=header, dtype=str)
-    frame.attrs["header_row"] = int(rows[0])
-    return Table(frame=frame, file=file, rows=rows[1:], sha256=hashlib.sha256(content).hexdigest())
-
-
-def _check_shape(
-    file: str, header: list[str], entries: list[list[str]], rows: NDArray[np.int64]
-) -> None:
-    if len(set(header)) != len(header):
-        twice = next(name for name in header if header.count(name) > 1)
-        raise DataError(
-            file=file, row=int(rows[0]), column=twice, found="the name twice", expected="it once"
-        )
-    for row, entry in zip(rows[1:], entries[1:], strict=True):
-        if len(entry) != len(header):
-            raise DataError(
-                file=file,
-                row=int(row),
-                found=f"{len(entry)} comma-separated entries",
-                expected=f"{len(header)} as in the header",
-            )
+    content = read_bytes(path)
+    cells = read_cells(content, str(path))
+    frame = pd.DataFrame(cells.columns, dtype=str)
+    frame.attrs["header_row"] = cells.header_row
+    return Table(
+        frame=frame,
+        file=str(path),
+        rows=cells.rows,
+        sha256=hashlib.sha256(content).hexdigest(),
+        notes=list(cells.notes),
+    )

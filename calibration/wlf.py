@@ -224,8 +224,7 @@ def fit_wlf(
     metadata: dict[str, Any] = {
         "kind": "wlf",
         "model": "wlf",
-        "data_file": source.file,
-        "data_sha256": source.sha256,
+        **source.origin,
         "temperature_window_C": [float(T.min()), float(T.max())],
         "T_ref_C": reference,
         "T_C": T.tolist(),
