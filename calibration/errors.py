@@ -1,5 +1,7 @@
 """The one error that measured data can raise."""
 
+_LONGEST = 160
+
 
 class DataError(ValueError):
     """Something in a data table that cannot be used; its text is always one line.
@@ -26,6 +28,10 @@ class DataError(ValueError):
         if row is not None:
             place.append(f"row {row}")
         if column:
-            place.append(f"column {column}")
-        text = f"{', '.join(place)}: found {found}, expected {expected}"
+            place.append(f"column {_shortened(column)}")
+        text = f"{', '.join(place)}: found {_shortened(found)}, expected {_shortened(expected)}"
         super().__init__(" ".join("".join(c if c.isprintable() else " " for c in text).split()))
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."

@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.tables import ABSOLUTE_ZERO_C, Table, read_table
+from calibration.tables import Table, read_table
 from fem.case import Case
 from fem.case_errors import CaseError
 from fem.surface_profile import EDGE_ZONE, interior_peak
@@ -28,8 +28,6 @@ PLATEN, CONTACT = "mean_pressure_N_per_mm2", "p_N_per_mm2"
 VELOCITY = "v_mm_per_s"
 _SIGMAS = ("sigma_K", "sigma")
 _PLACES = ("X_mm", "x_mm")
-#: A pyrometer that shows more than this is not looking at rubber, or shows kelvin or Fahrenheit.
-HOTTEST_RUBBER_C = 250.0
 #: A profile needs that many points to have an interior peak.
 FEWEST_POINTS = 5
 
@@ -159,7 +157,6 @@ def read_partition_data(
 def _check_loading(table: Table, pressure: str, case: Case) -> None:
     """Refuse the first row that no case can be made of."""
     p, v = table.numbers(pressure), table.numbers(VELOCITY)
-    table.require_all(pressure, p > 0.0, "a pressure above 0 N/mm^2")
     for _, rows in _groups(table, [pressure, VELOCITY]):
         first = int(rows[0])
         try:
@@ -176,10 +173,6 @@ def _check_loading(table: Table, pressure: str, case: Case) -> None:
 
 def _temperatures(table: Table, column: str, case: Case) -> Array:
     T, ambient = table.numbers(column), case.heat.ambient_C
-    table.require_all(column, T > ABSOLUTE_ZERO_C, "a temperature above absolute zero [C]")
-    table.require_all(
-        column, T < HOTTEST_RUBBER_C, f"a temperature of rubber in C, below {HOTTEST_RUBBER_C:g}"
-    )
     if column == "T_max_C":
         table.require_all(
             column, np.greater(T, ambient), f"more than the case's ambient_C = {ambient:g}"

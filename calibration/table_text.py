@@ -39,6 +39,7 @@ _SIGNATURES = {
     b"PAR1": "a Parquet file",
     b"\x89PNG": "a picture",
 }
+_BLANK = " \t;,\ufeff\xa0"
 #: Beyond that many lines no header is looked for.
 _HEADER_LINES = 200
 _CONTROL = re.compile("[\x00-\x08\x0e-\x1f\x7f]")
@@ -71,16 +72,17 @@ class Cells:
     notes: tuple[str, ...]
 
 
-def read_bytes(path: Path) -> bytes:
+def read_bytes(path: Path, what: str = "CSV file") -> bytes:
     """Content of a file of data; devices and pipes, which may never end, are refused."""
     try:
-        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():
-            _refuse(str(path), "a device or a pipe", "a file")
-        return path.read_bytes()
+        kind = path.stat().st_mode
+        if stat.S_ISREG(kind) or stat.S_ISDIR(kind):
+            return path.read_bytes()
     except OSError as error:
-        _refuse(str(path), error.strerror or str(error), "a readable CSV file")
+        _refuse(str(path), error.strerror or str(error), f"a readable {what}")
     except ValueError as error:
         _refuse(str(path), str(error), "the name of a file")
+    _refuse(str(path), "a device or a pipe", f"a {what}")
 
 
 def read_cells(content: bytes, file: str) -> Cells:
@@ -95,18 +97,16 @@ def read_cells(content: bytes, file: str) -> Cells:
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     header_at, separator, remark = _header(lines, file)
     notes += remark
-    records = _records(lines, header_at, separator, file)
-    header_row, header = next(records)
-    names, renamed = _names(header, header_row, file)
-    rows, entries = _rows(records, names, separator, file)
-    columns = dict(zip(names, map(list, zip(*entries, strict=True)), strict=True)) if rows else {}
-    columns = columns or {name: [] for name in names}
+    first, end, header = next(_records(lines, header_at, separator, file))
+    names, renamed = _names(header, first + 1, file)
+    rows, entries = _rows(lines, end, names, separator, file)
+    columns = dict(zip(names, entries, strict=True))
     if separator != "," or '"' in text:
         columns, remark = _with_points(columns, rows, file)
         notes += remark
     numbers = np.array(rows, dtype=np.int64)
     notes += renamed
-    return Cells(columns=columns, header_row=header_row, rows=numbers, notes=tuple(notes))
+    return Cells(columns=columns, header_row=first + 1, rows=numbers, notes=tuple(notes))
 
 
 def _refuse(
@@ -147,7 +147,7 @@ def _encoding(content: bytes) -> tuple[str, str]:
 
 def _header(lines: list[str], file: str) -> tuple[int, str, list[str]]:
     """Index of the header's line, the separator, and what there is to say of them."""
-    filled = [i for i, line in enumerate(lines) if line.strip(" \t;,\ufeff")][:_HEADER_LINES]
+    filled = [i for i, line in enumerate(lines) if line.strip(_BLANK)][:_HEADER_LINES]
     plain = [i for i in filled if not _is_comment(lines[i])]
     known = [i for i in plain if _known_names(lines[i])]
     above = [i for i in filled if _is_comment(lines[i]) and _all_known(lines[i])]
@@ -165,6 +165,10 @@ def _header(lines: list[str], file: str) -> tuple[int, str, list[str]]:
     else:
         _refuse(file, "no header line", "a CSV file with a header")
     separator = _separator(lines[at])
+    if separator == " ":
+        lines[at:] = [line if _nothing(line) else "\t".join(line.split()) for line in lines[at:]]
+        notes.append("read with spaces between the columns")
+        return at, "\t", notes
     if separator != ",":
         notes.append(f"read with {_SEPARATORS[separator]} between the columns")
     return at, separator, notes
@@ -176,11 +180,14 @@ def _is_comment(line: str) -> bool:
 
 def _separator(line: str) -> str:
     bare = _QUOTED.sub("", line)
-    return next((sign for sign in _SEPARATORS if sign in bare), ",")
+    found = next((sign for sign in _SEPARATORS if sign in bare), "")
+    spaced = not found and sum(word in KNOWN_COLUMNS for word in bare.split()) > 1
+    return found or (" " if spaced else ",")
 
 
 def _split(line: str) -> list[str]:
-    return [cell.strip(' "') for cell in line.split(_separator(line))]
+    separator = _separator(line)
+    return [cell.strip(' "') for cell in line.split(None if separator == " " else separator)]
 
 
 def _known_names(line: str) -> int:
@@ -239,26 +246,26 @@ class _Records:
 
 
 def _nothing(line: str) -> bool:
-    bare = line.strip()
+    bare = line.strip(_BLANK)
     return not bare or bare[0] == "#"
 
 
 def _records(
     lines: list[str], start: int, separator: str, file: str
-) -> Iterator[tuple[int, list[str]]]:
-    """Line number and cells of each record."""
+) -> Iterator[tuple[int, int, list[str]]]:
+    """First line and the one after the last of each record (from 0), and its cells."""
     source = _Records(lines, start)
     reader = csv.reader(source, delimiter=separator, strict=True, skipinitialspace=True)
     try:
         for cells in reader:
-            yield source.first + 1, cells
+            yield source.first, source.at, cells
             source.begins = True
     except csv.Error as error:
-        limit = csv.field_size_limit()
         found, expected = f"a cell that cannot be read ({error})", "quotes in pairs"
         if "unexpected end" in str(error):
             found = "a quote that is never closed"
         elif "field limit" in str(error):
+            limit = csv.field_size_limit()
             found, expected = f"a cell of more than {limit} characters", "a short cell"
         _refuse(file, found, expected, row=source.first + 1)
 
@@ -281,41 +288,43 @@ def _names(header: list[str], row: int, file: str) -> tuple[list[str], list[str]
 
 
 def _rows(
-    records: Iterator[tuple[int, list[str]]], names: list[str], separator: str, file: str
+    lines: list[str], start: int, names: list[str], separator: str, file: str
 ) -> tuple[list[int], list[list[str]]]:
-    width, rows, entries = len(names), [], []
-    for row, record in records:
-        cells = [cell.strip() for cell in record]
-        if len(cells) != width:
-            if not any(cells):
-                continue
-            cells = _fitted(cells, names)
-            if len(cells) != width:
-                _refuse_shape(file, row, len(cells), names, separator)
-        elif not any(cells):
-            continue
-        rows.append(row)
-        entries.append(cells)
-    return rows, entries
+    """Line numbers of the rows, and the entries by column; rows without an entry are left out."""
+    width = len(names)
+    rows: list[int] = []
+    flat: list[str] = []  # one list, as a million small ones keep the garbage collector busy
+    if any('"' in line for line in lines):
+        for first, _, cells in _records(lines, start, separator, file):
+            if any(map(str.strip, cells)):
+                rows.append(first + 1)
+                flat += _fitted(cells, first + 1, names, separator, file)
+    else:
+        kept = [i for i in range(start, len(lines)) if not _nothing(lines[i])]
+        for i in kept:
+            if lines[i].count(separator) != width - 1:
+                cells = lines[i].split(separator)
+                lines[i] = separator.join(_fitted(cells, i + 1, names, separator, file))
+        rows = [i + 1 for i in kept]
+        flat = separator.join([lines[i] for i in kept]).split(separator) if kept else []
+    return rows, [list(map(str.strip, flat[k::width])) for k in range(width)]
 
 
-def _fitted(cells: list[str], names: list[str]) -> list[str]:
+def _fitted(cells: list[str], row: int, names: list[str], separator: str, file: str) -> list[str]:
     """The cells without empty ones at the end, or with them where the columns have no names."""
     width = len(names)
-    while len(cells) > width and not cells[-1]:
+    while len(cells) > width and not cells[-1].strip():
         cells = cells[:-1]
     missing = names[len(cells) :]
-    if missing and all(name.startswith("(column ") for name in missing):
+    if all(name.startswith("(column ") for name in missing):
         cells = cells + [""] * len(missing)
-    return cells
-
-
-def _refuse_shape(file: str, row: int, count: int, names: list[str], separator: str) -> NoReturn:
+    if len(cells) == width:
+        return cells
     kind = {",": "comma-separated", ";": "semicolon-separated", "\t": "tab-separated"}[separator]
-    expected = f"{len(names)} as in the header"
-    if separator == "," and count > len(names):
+    expected = f"{width} as in the header"
+    if separator == "," and len(cells) > width:
         expected += " (decimal commas need ; between the columns)"
-    _refuse(file, f"{count} {kind} entries", expected, row=row)
+    _refuse(file, f"{len(cells)} {kind} entries", expected, row=row)
 
 
 def _with_points(

@@ -83,7 +83,9 @@ class Table:
         if finding is None:
             return
         if finding.impossible:
-            self.refuse_at(finding.index, column, finding.found, finding.expected)
+            entry = str(self.frame[column].iloc[finding.index])
+            likely = f", which {finding.likely}" if finding.likely else ""
+            self.refuse_at(finding.index, column, entry + likely, finding.expected)
         line = f"row {self.rows[finding.index]}, column {column}: {finding.sentence}"
         if line not in self.unusual:
             self.unusual.append(line)

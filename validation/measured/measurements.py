@@ -12,7 +12,6 @@ and ``T_0_C``, the temperature before the sliding.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,11 +19,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.tables import ABSOLUTE_ZERO_C, Table, read_table
+from calibration.tables import Table, read_table
 from fem.surface_profile import excess_area, interior_peak
 
 FloatArray = NDArray[np.float64]
-BoolArray = NDArray[np.bool_]
 
 #: What is compared, with its unit.
 QUANTITIES = {"T_max_C": "°C", "A_T_K_mm": "K mm", "friction_coefficient": "-"}
@@ -32,22 +30,13 @@ QUANTITIES = {"T_max_C": "°C", "A_T_K_mm": "K mm", "friction_coefficient": "-"}
 START_C = 20.0
 LAWS = ("huemer", "exponential", "coulomb")
 
-_POSITIVE: tuple[Callable[[FloatArray], BoolArray], str] = (lambda x: x > 0.0, "a number above 0")
-_CELSIUS: tuple[Callable[[FloatArray], BoolArray], str] = (
-    lambda x: x > ABSOLUTE_ZERO_C,
-    f"a temperature above {ABSOLUTE_ZERO_C} °C",
+#: Columns of numbers that a test has one value of.
+_NUMBERS = (
+    *("p_N_per_mm2", "mean_pressure_N_per_mm2", "v_mm_per_s", "T_0_C"),
+    *QUANTITIES,
 )
-_ANY: tuple[Callable[[FloatArray], BoolArray], str] = (np.isfinite, "a finite number")
-#: Columns of numbers that a test has one value of, and what they may be.
-_NUMBERS = {
-    "p_N_per_mm2": _POSITIVE,
-    "mean_pressure_N_per_mm2": _POSITIVE,
-    "v_mm_per_s": _POSITIVE,
-    "T_0_C": _CELSIUS,
-    "T_max_C": _CELSIUS,
-    "A_T_K_mm": _ANY,
-    "friction_coefficient": _POSITIVE,
-}
+#: Those that must be above zero.
+_POSITIVE = ("v_mm_per_s", "friction_coefficient")
 _WORDS = ("run", "compound", "law")
 
 
@@ -126,7 +115,6 @@ def _profiles(table: Table) -> Measurements:
             found = f"{column} beside a profile"
             table.refuse(column=column, found=found, expected="it to be computed from the profile")
     T = table.numbers("T_C")
-    table.require_all("T_C", _CELSIUS[0](T), _CELSIUS[1])
     X = table.numbers("x_mm")
     rows = _conditions(table)
     if (rows["run"] == "").any():
@@ -185,16 +173,14 @@ def _conditions(table: Table) -> pd.DataFrame:
         index = int(np.argmax(unknown))
         expected = f"one of {', '.join(LAWS)} or nothing"
         table.refuse_at(index, "law", repr(frame["law"].iloc[index]), expected)
-    for name, (valid, expected) in _NUMBERS.items():
-        frame[name] = _optional_numbers(table, name, valid, expected)
+    for name in _NUMBERS:
+        frame[name] = _optional_numbers(table, name)
     frame["T_0_C"] = frame["T_0_C"].fillna(START_C)
     frame["row"] = table.rows
     return frame
 
 
-def _optional_numbers(
-    table: Table, column: str, valid: Callable[[FloatArray], BoolArray], expected: str
-) -> FloatArray:
+def _optional_numbers(table: Table, column: str) -> FloatArray:
     """Values of a column, NaN where the entry is empty or there is no such column."""
     values = np.full(len(table), np.nan)
     if table.has(column):
@@ -203,6 +189,7 @@ def _optional_numbers(
         if stated.any():
             own = table.select(stated)
             numbers = own.numbers(column)
-            own.require_all(column, np.asarray(valid(numbers)), expected)
+            if column in _POSITIVE:
+                own.require_all(column, numbers > 0.0, "a number above 0")
             values[stated] = numbers
     return values
