@@ -4,7 +4,8 @@ from calibration.errors import DataError
 from calibration.fit_core import FitResult
 from calibration.friction import compare_laws, fit_friction
 from calibration.hyperelastic import compare_models, fit_hyperelastic
-from calibration.wlf import fit_wlf, shift_sweeps
+from calibration.master_curve import shift_sweeps
+from calibration.wlf import fit_wlf
 
 __all__ = [
     "DataError",

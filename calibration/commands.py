@@ -1,14 +1,16 @@
 """The `calibrate` command: its arguments, and what happens when it fails."""
 
 import argparse
+import math
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from calibration.conductance import ALSO
 from calibration.errors import DataError
 from calibration.friction import LAWS
+from calibration.master_curve import Vertical
 from calibration.outcomes import (
     PARAMETERS_FILE,
     Outcome,
@@ -21,8 +23,9 @@ from calibration.outcomes import (
 from calibration.partition import MOST_SIMULATIONS
 from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStoppedError
 from calibration.stress_models import STRESS_MODELS
+from calibration.tables import ABSOLUTE_ZERO_C
 from fem.case import Case
-from fem.case_errors import CaseError
+from fem.case_errors import CaseError, describe
 from fem.case_reading import parse_override
 from fem.output_folder import chosen_output, output_folder
 from materials.hyperelastic import MODES
@@ -87,7 +90,7 @@ def _add_hyperelastic(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--cycle", type=_cycle, help='"last-full", "all" or a number')
     parser.add_argument("--branch", choices=("both", "load", "unload"), default="both")
     parser.add_argument(
-        "--window", nargs=2, type=float, metavar=("LOW", "HIGH"), help="stretches used"
+        "--window", nargs=2, type=_finite, metavar=("LOW", "HIGH"), help="stretches used"
     )
     parser.add_argument("--mode", choices=MODES, action="append", help="may be repeated")
     parser.add_argument("--weights", choices=("equal", "modes", "relative"), default="equal")
@@ -115,9 +118,16 @@ def _add_friction(parser: argparse.ArgumentParser) -> None:
         "--wlf", choices=("none", "given", "fit"), default="none",
         help="shift of the speed by T_C: none, with --d1 and --d2, or fitted together",
     )  # fmt: skip
-    parser.add_argument("--d1", type=float, default=CONSTANTS.d1)
-    parser.add_argument("--d2", type=float, default=CONSTANTS.d2_K, metavar="K")
-    parser.add_argument("--T-ref", type=float, default=20.0, metavar="C", dest="T_ref_C")
+    parser.add_argument("--d1", type=_positive, default=CONSTANTS.d1)
+    parser.add_argument("--d2", type=_positive, default=CONSTANTS.d2_K, metavar="K")
+    parser.add_argument(
+        "--T-ref", type=_celsius, default=20.0, metavar="C", dest="T_ref_C",
+        help="temperature of the fitted law (default %(default)g)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--wlf-T-ref", type=_celsius, metavar="C", dest="wlf_T_ref_C",
+        help="temperature --d1 and --d2 refer to; they are rebased to --T-ref (default: the same)",
+    )  # fmt: skip
     _add_common(parser, "of mu")
 
     def calibrate(arguments: argparse.Namespace) -> Outcome:
@@ -135,14 +145,50 @@ def _add_friction(parser: argparse.ArgumentParser) -> None:
 
 
 def _wlf(arguments: argparse.Namespace) -> WLF:
-    return WLF(d1=arguments.d1, d2_K=arguments.d2)
+    given = WLF(d1=arguments.d1, d2_K=arguments.d2)
+    if arguments.wlf_T_ref_C is None:
+        return given
+    return given.rebased(arguments.wlf_T_ref_C, arguments.T_ref_C)
 
 
 def _add_wlf(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--T-ref", type=float, metavar="C", dest="T_ref_C")
-    parser.set_defaults(
-        calibrate=lambda arguments: calibrate_wlf(arguments.data, T_ref_C=arguments.T_ref_C)
-    )
+    parser.add_argument(
+        "--T-ref", type=_celsius, metavar="C", dest="T_ref_C",
+        help="temperature the constants refer to",
+    )  # fmt: skip
+    parser.add_argument(
+        "--window", nargs=2, type=_finite, metavar=("LOW", "HIGH"),
+        help="temperatures used [deg C]; what lies outside is named",
+    )  # fmt: skip
+    parser.add_argument(
+        "--other-sign", action="store_true",
+        help="the table holds 1/a_T, which rises with temperature",
+    )  # fmt: skip
+    parser.add_argument(
+        "--vertical", choices=get_args(Vertical), default="auto",
+        help="vertical shift T rho/(T_0 rho_0) of the moduli, none, or the better of the two",
+    )  # fmt: skip
+    parser.add_argument(
+        "--expansion", type=_not_negative, default=0.0, metavar="PER_K",
+        help="thermal expansion of the volume, for rho/rho_0 (default: rho stays)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--T-tolerance", type=_not_negative, metavar="K", dest="T_tolerance_K",
+        help="rows within that of each other are one sweep (default: 1 K where needed)",
+    )  # fmt: skip
+
+    def calibrate(arguments: argparse.Namespace) -> Outcome:
+        return calibrate_wlf(
+            arguments.data,
+            T_ref_C=arguments.T_ref_C,
+            window=None if arguments.window is None else tuple(arguments.window),
+            other_sign=arguments.other_sign,
+            vertical=arguments.vertical,
+            expansion_per_K=arguments.expansion,
+            T_tolerance_K=arguments.T_tolerance_K,
+        )
+
+    parser.set_defaults(calibrate=calibrate)
 
 
 def _add_conductance(parser: argparse.ArgumentParser) -> None:
@@ -203,7 +249,7 @@ def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
         "--loss", choices=("linear", "soft_l1", "huber", "cauchy"), default="linear",
         help="a robust loss bounds the pull of outliers",
     )  # fmt: skip
-    parser.add_argument("--noise", type=float, help=f"residual where that begins [{unit}]")
+    parser.add_argument("--noise", type=_positive, help=f"residual where that begins [{unit}]")
     parser.add_argument(
         "--intervals", choices=("student", "profile", "bootstrap"), default="student",
         help="95 %% intervals from the covariance, the profile or resampling",
@@ -222,20 +268,61 @@ def _common(arguments: argparse.Namespace) -> dict[str, Any]:
     }
 
 
+def _finite(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"found {describe(text)}, expected a finite number")
+    return value
+
+
+def _positive(text: str) -> float:
+    value = _finite(text)
+    if value <= 0.0:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a number above 0")
+    return value
+
+
+def _not_negative(text: str) -> float:
+    value = _finite(text)
+    if value < 0.0:
+        raise argparse.ArgumentTypeError(f"found {text}, expected 0 or more")
+    return value
+
+
+def _celsius(text: str) -> float:
+    value = _finite(text)
+    if value <= ABSOLUTE_ZERO_C:
+        expected = f"a temperature above absolute zero, {ABSOLUTE_ZERO_C} deg C"
+        raise argparse.ArgumentTypeError(f"found {text}, expected {expected}")
+    return value
+
+
 def _cycle(text: str) -> str | int:
-    return text if text in ("last-full", "all") else int(text)
+    if text in ("last-full", "all"):
+        return text
+    if not text.isdecimal() or len(text) > 9:
+        raise argparse.ArgumentTypeError(
+            f'found {describe(text)}, expected "last-full", "all" or a cycle\'s number'
+        )
+    return int(text)
 
 
 def _count(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{text} starts; expected 1 or more")
-    return number
+    if not text.isdecimal() or len(text) > 6 or int(text) < 1:
+        raise argparse.ArgumentTypeError(
+            f"found {describe(text)}, expected a whole number, 1 or more"
+        )
+    return int(text)
 
 
 def _fixed(text: str) -> tuple[str, float]:
-    name, _, value = text.partition("=")
-    return name.strip(), float(value)
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip():
+        raise argparse.ArgumentTypeError(f"found {describe(text)}, expected NAME=VALUE")
+    return name.strip(), _finite(value)
 
 
 KINDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {

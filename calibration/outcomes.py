@@ -31,12 +31,17 @@ from calibration.plots import (
 from calibration.rig_file import read_contact_surface, read_heating_rig
 from calibration.simulation_progress import SimulationProgress
 from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStore
-from calibration.tables import read_table
-from calibration.wlf import fit_wlf, shift_sweeps
+from calibration.wlf import fit_wlf, read_shift_factors
 from fem.atomic_files import staged_directory
 from fem.case import Case
 
 PARAMETERS_FILE = "parameters.toml"
+
+#: What the summary repeats of a fit's metadata.
+_SAID = (
+    "cycle", "branch", "window", "modes", "zero", "normalisation", "T_ref_C", "vertical_shift",
+    "overlap_error_decades",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,29 +136,31 @@ def _compared(what: str, found: pd.DataFrame) -> str:
     return f"\n{what} on the same data, best AIC first:\n{_shown(found)}"
 
 
-def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None) -> Outcome:
-    """Fit the WLF constants to shift factors or frequency sweeps in the CSV file `path`."""
+def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None, **options: Any) -> Outcome:
+    """Fit the WLF constants to the CSV file `path` (options of `read_shift_factors`)."""
     files: dict[str, bytes] = {}
-    extra = ""
-    if read_table(path, ("T_C",)).has("frequency_Hz"):
-        master = shift_sweeps(path, T_ref_C)
-        files["shift_factors.csv"] = _csv(master.shifts)
-        files["master_curve.csv"] = _csv(master.curve)
-        files["master_curve.png"] = png(plot_master_curve(master))
-        extra = f"\n  overlap error {master.overlap_error:.3g} decades" + "".join(
-            f"\n  warning: {warning}" for warning in master.warnings
-        )
-    result = fit_wlf(path, T_ref_C=T_ref_C)
+    data = read_shift_factors(path, T_ref_C=T_ref_C, **options)
+    result = fit_wlf(data, T_ref_C=T_ref_C)
+    if data.master is not None:
+        files["shift_factors.csv"] = _csv(data.master.shifts)
+        files["master_curve.csv"] = _csv(data.master.curve)
+        files["master_curve.png"] = png(plot_master_curve(data.master))
+        result = replace(result, warnings=(*data.master.warnings, *result.warnings))
     points = pd.DataFrame(
         {
-            "T_C": result.metadata["T_C"],
+            **({"row": data.rows} if data.rows.size else {}),
+            "T_C": data.T,
             "log10_aT": result.observed,
             "fit": result.predicted,
             "residual": result.predicted - result.observed,
         }
     )
     files |= _files(result, points) | {"fit.png": png(plot_wlf(result))}
-    return _outcome(result, _heading(result, path) + extra, files)
+    text = (
+        f"{_heading(result, path)}\n  d1 and d2 refer to {result.metadata['T_ref_C']:g} deg C "
+        "(wlf_T_ref_C); a case rebases them to T_ref_C, the temperature of its friction law"
+    )
+    return _outcome(result, text, files)
 
 
 def calibrate_conductance(
@@ -264,11 +271,10 @@ def _shown(table: pd.DataFrame) -> str:
 
 def _heading(result: FitResult, path: str | Path) -> str:
     about = [f"{result.metadata['kind']} fit of {result.metadata['model']} to {path}"]
-    about += [
-        f"  {key}: {result.metadata[key]}"
-        for key in ("cycle", "branch", "window", "modes", "normalisation", "T_ref_C")
-        if key in result.metadata
-    ]
+    about += [f"  {key}: {result.metadata[key]}" for key in _SAID if key in result.metadata]
+    about += [f"  rows used: {result.metadata.get('rows_used', result.n_data)}"]
+    about += [f"  left out: {entry}" for entry in result.metadata.get("rows_left_out", ())]
+    about += [f"  {entry}" for entry in result.metadata.get("notes", ())]
     limits = {k: v for k, v in result.metadata.get("interval_95", {}).items() if k != "kind"}
     lines = [f"    {name}: {low:.6g} to {high:.6g}" for name, (low, high) in limits.items()]
     if lines:

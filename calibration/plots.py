@@ -13,12 +13,18 @@ from calibration.conductance import HeatingRecord
 from calibration.fit_core import FitResult
 from calibration.friction import FrictionData
 from calibration.hyperelastic import StressData
-from calibration.wlf import MasterCurve
+from calibration.master_curve import MasterCurve
 
 Array = NDArray[np.float64]
 
 # Okabe and Ito's colours, which readers with any colour vision can tell apart
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+# Marker and label of the quantities of a master curve
+_CURVES = {
+    "reduced_modulus_N_per_mm2": ("o", "E'/b_T [N/mm²]"),
+    "reduced_loss_modulus_N_per_mm2": ("s", "E''/b_T [N/mm²]"),
+    "tan_delta": ("^", "tan δ [-]"),
+}
 _MODES = {
     "uniaxial": ("o", COLOURS[0]),
     "equibiaxial": ("s", COLOURS[1]),
@@ -122,15 +128,20 @@ def plot_master_curve(master: MasterCurve) -> Figure:
     axes = figure.add_subplot()
     temperatures = master.shifts["T_C"].to_numpy()
     span = max(float(np.ptp(temperatures)), 1e-9)
+    shown = [name for name in _CURVES if name in master.curve]
     for T, sweep in master.curve.groupby("T_C"):
         shade = (float(str(T)) - temperatures.min()) / span
         colour = (0.85 * shade + 0.05, 0.25, 0.9 - 0.8 * shade)
-        x, y = sweep["reduced_frequency_Hz"], sweep["modulus_N_per_mm2"]
-        axes.plot(x, y, "o-", color=colour, markersize=3, linewidth=0.8, label=f"{T:g} °C")
+        for i, name in enumerate(shown):
+            label = f"{T:g} °C" if i == 0 else None
+            marks = {"marker": _CURVES[name][0], "markersize": 3, "linewidth": 0.8}
+            ordered = sweep.sort_values("reduced_frequency_Hz")
+            x, y = ordered["reduced_frequency_Hz"], ordered[name]
+            axes.plot(x, y, color=colour, label=label, **marks)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel(f"reduced frequency at {master.T_ref_C:g} °C [Hz]")
-    axes.set_ylabel("modulus [N/mm²]")
+    axes.set_ylabel(", ".join(f"{_CURVES[name][1]} ({_CURVES[name][0]})" for name in shown))
     axes.set_title(f"overlap error {master.overlap_error:.2g} decades", fontsize=10)
     axes.legend(fontsize=7, ncols=2)
     return figure

@@ -1,4 +1,4 @@
-"""Time-temperature shift: horizontal shifting of frequency sweeps, and the WLF constants.
+"""Fit of the WLF constants to shift factors, measured or found by shifting frequency sweeps.
 
 References
 ----------
@@ -13,245 +13,267 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
-from scipy.optimize import minimize_scalar
 
+from calibration.errors import DataError
 from calibration.fit_core import FitResult, Problem, fit
 from calibration.friction import read_temperature
+from calibration.master_curve import MasterCurve, shift_sweeps
 from calibration.provenance import version
+from calibration.row_account import LeftOut, left_out
+from calibration.sweeps import is_sweep_table
 from calibration.tables import Table, read_table
 from materials.wlf import WLF
 
 Array = NDArray[np.float64]
 
-SWEEP_COLUMNS = ("T_C", "frequency_Hz", "modulus_N_per_mm2")
 SHIFT_COLUMNS = ("T_C", "log10_aT")
-_LEAST_OVERLAP = 0.2  # decades; a shift that rests on less is reported
+LEAST_R2 = 0.5  # a curve that explains less of the factors is none
+_GLASS_TO_POLE_K = 51.6  # d2 at the glass transition, nearly the same for all polymers [1]_
+_GLASS_SPAN_K = 0.5  # the transition is no sharper than that
+_POLE_DISTANCE_K = 1.0  # the lowest temperature stays that far above the pole
 
 
 @dataclass(frozen=True, kw_only=True)
-class MasterCurve:
-    """Frequency sweeps shifted to one reference temperature.
+class ShiftFactors:
+    """Shift factors a fit is made to.
 
     Parameters
     ----------
-    shifts : DataFrame
-        ``T_C, log10_aT, overlap_decades, overlap_error`` by temperature; the error is the RMS
-        difference of log10 modulus where a sweep overlaps those shifted before it.
-    curve : DataFrame
-        ``T_C, reduced_frequency_Hz, modulus_N_per_mm2``, every point at its reduced frequency.
-    T_ref_C : float
-    warnings : tuple of str
+    T, log_aT : ndarray, shape (n,)
+        Temperature [deg C] and decadic logarithm of the factors [-].
+    rows : ndarray of int, shape (n,)
+        Their rows in the table; empty for sweeps, whose rows are in the master curve.
+    out : tuple of LeftOut
+    source : Table or None
+        The table behind them.
+    master : MasterCurve or None
+        Where the factors come from, if from sweeps.
     """
 
-    shifts: pd.DataFrame
-    curve: pd.DataFrame
-    T_ref_C: float
-    warnings: tuple[str, ...]
+    T: Array
+    log_aT: Array
+    rows: NDArray[np.int64]
+    out: tuple[LeftOut, ...]
+    source: Table | None = None
+    master: MasterCurve | None = None
 
     @property
-    def overlap_error(self) -> float:
-        """RMS overlap error of the whole master curve in decades of modulus."""
-        errors = self.shifts["overlap_error"].to_numpy(dtype=float)
-        errors = errors[np.isfinite(errors)]
-        return float(np.sqrt(np.mean(errors**2))) if errors.size else float("nan")
+    def file(self) -> str:
+        return "table" if self.source is None else self.source.file
 
-
-def shift_sweeps(table: pd.DataFrame | str | Path, T_ref_C: float | None = None) -> MasterCurve:
-    """Shift frequency sweeps along the frequency axis onto one master curve.
-
-    Beginning at the sweep closest to the reference temperature, each next one, colder or hotter, is
-    moved to where it agrees best with its already shifted neighbour.
-
-    Parameters
-    ----------
-    table : DataFrame or path of a CSV file
-        Columns ``T_C``, ``frequency_Hz``, ``modulus_N_per_mm2`` (storage modulus, or its amount).
-    T_ref_C : float, optional
-        Temperature of the sweep that stays; default the one in the middle. When it is not one of
-        the sweeps, the nearest is taken and reported.
-    """
-    source = read_table(table, SWEEP_COLUMNS)
-    sweeps = _sweeps(source)
-    temperatures = np.array(sorted(sweeps))
-    wanted = float(np.median(temperatures)) if T_ref_C is None else T_ref_C
-    centre = int(np.argmin(np.abs(temperatures - wanted)))
-    shifts = np.zeros(temperatures.size)
-    decades, errors = np.full(temperatures.size, np.inf), np.full(temperatures.size, np.nan)
-    for direction, end in ((1, temperatures.size), (-1, -1)):
-        for i in range(centre + direction, end, direction):
-            neighbour = temperatures[i - direction]
-            step, decades[i], errors[i] = _best_shift(sweeps[neighbour], sweeps[temperatures[i]])
-            shifts[i] = shifts[i - direction] + step
-    table_of_shifts = pd.DataFrame(
-        {
-            "T_C": temperatures,
-            "log10_aT": shifts,
-            "overlap_decades": decades,
-            "overlap_error": errors,
-        }
-    )
-    return MasterCurve(
-        shifts=table_of_shifts,
-        curve=_master(sweeps, temperatures, shifts),
-        T_ref_C=float(temperatures[centre]),
-        warnings=_shift_warnings(temperatures, decades, T_ref_C, temperatures[centre]),
-    )
-
-
-def _sweeps(source: Table) -> dict[float, tuple[Array, Array]]:
-    """log10 frequency and log10 modulus by temperature, in rising frequency."""
-    T = read_temperature(source)
-    f, E = source.numbers("frequency_Hz"), source.numbers("modulus_N_per_mm2")
-    source.require_all("frequency_Hz", f > 0.0, "a frequency above 0 Hz")
-    source.require_all("modulus_N_per_mm2", E > 0.0, "a modulus above 0 N/mm^2")
-    sweeps = {}
-    for temperature in np.unique(T):
-        here = np.flatnonzero(temperature == T)
-        frequency, first = np.unique(np.log10(f[here]), return_index=True)
-        if frequency.size < 3:
-            source.refuse_at(
-                here[0], "frequency_Hz", f"{frequency.size} frequencies at {temperature:g} deg C",
-                "at least 3 per temperature",
-            )  # fmt: skip
-        sweeps[float(temperature)] = frequency, np.log10(E[here][first])
-    if len(sweeps) < 2:
-        source.refuse(column="T_C", found="one temperature", expected="two or more sweeps to shift")
-    return sweeps
-
-
-def _best_shift(
-    base: tuple[Array, Array], other: tuple[Array, Array]
-) -> tuple[float, float, float]:
-    """Shift of `other` onto `base` in decades, with the overlap and its RMS difference."""
-    curve = PchipInterpolator(*base)
-    x, y = other
-
-    def misfit(shift: float) -> tuple[float, float]:
-        low, high = max(base[0][0], x[0] + shift), min(base[0][-1], x[-1] + shift)
-        if high - low < 0.02 * (x[-1] - x[0]):
-            return np.inf, 0.0
-        at = np.linspace(low, high, 60)
-        difference = curve(at) - PchipInterpolator(x + shift, y)(at)
-        return float(np.sqrt(np.mean(difference**2))), float(high - low)
-
-    span = (base[0][-1] - base[0][0]) + (x[-1] - x[0])
-    middle = 0.5 * (base[0][0] + base[0][-1] - x[0] - x[-1])
-    # Where curves hardly overlap any two of them seem to agree: such shifts are only taken when
-    # nothing with a real overlap is nearly as good.
-    tried = middle + np.linspace(-0.5, 0.5, 161) * span
-    found = [misfit(shift) for shift in tried]
-    scale = float(np.ptp(np.concatenate([base[1], y]))) or 1.0
-    score = [
-        error + 0.02 * scale * max(0.0, _LEAST_OVERLAP - overlap) / _LEAST_OVERLAP
-        for error, overlap in found
-    ]
-    i = int(np.argmin(score))
-    width = tried[1] - tried[0]
-    best = minimize_scalar(
-        lambda shift: misfit(shift)[0],
-        bounds=(tried[i] - width, tried[i] + width),
-        method="bounded",
-        options={"xatol": 1e-9},
-    )
-    shift = float(best.x) if best.fun <= found[i][0] else float(tried[i])
-    error, overlap = misfit(shift)
-    return shift, overlap, error
-
-
-def _master(
-    sweeps: dict[float, tuple[Array, Array]], temperatures: Array, shifts: Array
-) -> pd.DataFrame:
-    parts = [
-        pd.DataFrame(
-            {
-                "T_C": T,
-                "reduced_frequency_Hz": 10.0 ** (sweeps[T][0] + shift),
-                "modulus_N_per_mm2": 10.0 ** sweeps[T][1],
-            }
-        )
-        for T, shift in zip(temperatures, shifts, strict=True)
-    ]
-    return pd.concat(parts, ignore_index=True)
-
-
-def _shift_warnings(
-    temperatures: Array, decades: Array, wanted: float | None, taken: float
-) -> tuple[str, ...]:
-    found = []
-    if wanted is not None and abs(wanted - taken) > 1e-9:
-        found.append(f"no sweep at {wanted:g} deg C: the one at {taken:g} deg C is the reference")
-    for i in np.flatnonzero(decades < _LEAST_OVERLAP):
-        found.append(
-            f"the sweep at {temperatures[i]:g} deg C overlaps its neighbour by only "
-            f"{decades[i]:.2f} decades"
-        )
-    return tuple(found)
+    @property
+    def origin(self) -> dict[str, Any]:
+        """What a result file says of the data (see `Table.origin`)."""
+        return {"data_file": self.file} if self.source is None else self.source.origin
 
 
 def fit_wlf(
-    table: pd.DataFrame | str | Path | MasterCurve, *, T_ref_C: float | None = None
+    table: pd.DataFrame | str | Path | MasterCurve | ShiftFactors,
+    *,
+    T_ref_C: float | None = None,
+    window: tuple[float, float] | None = None,
+    other_sign: bool = False,
+    **shifting: Any,
 ) -> FitResult:
     """Fit d1 and d2 to shift factors.
 
     Parameters
     ----------
-    table : DataFrame, path of a CSV file, or MasterCurve
+    table : DataFrame, path of a CSV file, MasterCurve, or ShiftFactors
         Columns ``T_C`` and ``log10_aT``, or a_T itself in ``aT``; the factors may refer to any
-        temperature, they are rebased. A table of sweeps (``frequency_Hz``,
-        ``modulus_N_per_mm2``) is shifted first.
+        temperature, they are rebased. A table of sweeps is shifted first.
     T_ref_C : float, optional
         Reference temperature of the constants [deg C]; default the one where log10 a_T is zero,
         or nearest to it.
+    window : tuple of float, optional
+        Lowest and highest temperature used [deg C].
+    other_sign : bool
+        The table holds 1/a_T, which rises with temperature.
+    **shifting
+        Options of `calibration.master_curve.shift_sweeps`.
+
+    Raises
+    ------
+    DataError
+        Where the factors rise with temperature, lie on no WLF curve, or leave d1 or d2 at a bound.
 
     Notes
     -----
     ``log10 a_T = c - d1 (T - T_ref)/(d2 + T - T_ref)``. The offset c takes up that the data may
     refer to another temperature than T_ref (and their scatter there).
     """
-    source, T, log_aT = _shift_factors(table, T_ref_C)
-    reference = float(T[np.argmin(np.abs(log_aT))]) if T_ref_C is None else float(T_ref_C)
-    dT = T - reference
-    if np.unique(dT).size < 3:
-        source.refuse(
-            column="T_C",
-            found=f"{np.unique(dT).size} different temperatures",
-            expected="at least 3 for d1, d2 and the offset",
+    if isinstance(table, ShiftFactors):
+        data = table
+    else:
+        data = read_shift_factors(
+            table, T_ref_C=T_ref_C, window=window, other_sign=other_sign, **shifting
         )
-    problem = _wlf_problem(dT, log_aT)
-    result = fit(problem, _wlf_starts(problem, dT, log_aT))
+    T, log_aT = data.T, data.log_aT
+    reference = float(T[np.argmin(np.abs(log_aT))]) if T_ref_C is None else float(T_ref_C)
+    _require_factors(data, reference)
+    result = _fitted(T - reference, log_aT)
+    _refuse_no_curve(data, result)
     wlf = WLF(d1=result.values["d1"], d2_K=result.values["d2_K"])
     metadata: dict[str, Any] = {
         "kind": "wlf",
         "model": "wlf",
-        **source.origin,
+        **data.origin,
         "temperature_window_C": [float(T.min()), float(T.max())],
         "T_ref_C": reference,
         "T_C": T.tolist(),
+        **_about_rows(data),
         "version": version(),
     }
-    section = {"wlf": True, "d1": wlf.d1, "d2_K": wlf.d2_K, "T_ref_C": reference}
-    return replace(result, model=wlf, metadata=metadata, section={"friction": section})
+    section = {"wlf": True, "d1": wlf.d1, "d2_K": wlf.d2_K, "wlf_T_ref_C": reference}
+    return replace(
+        result,
+        model=wlf,
+        metadata=metadata,
+        section={"friction": section},
+        warnings=(*result.warnings, *_glass_warnings(data, wlf, reference)),
+    )
 
 
-def _shift_factors(
-    table: pd.DataFrame | str | Path | MasterCurve, T_ref_C: float | None
-) -> tuple[Table, Array, Array]:
+def read_shift_factors(
+    table: pd.DataFrame | str | Path | MasterCurve,
+    *,
+    T_ref_C: float | None = None,
+    window: tuple[float, float] | None = None,
+    other_sign: bool = False,
+    **shifting: Any,
+) -> ShiftFactors:
+    """Read shift factors, or find them by shifting sweeps (see `fit_wlf`)."""
+    nothing = np.empty(0, dtype=np.int64)
     if isinstance(table, MasterCurve):
-        source = read_table(table.shifts[["T_C", "log10_aT"]], SHIFT_COLUMNS)
+        source, master = None, table
     else:
-        source = read_table(table, ("T_C",))
-        if source.has("frequency_Hz"):
-            master = shift_sweeps(table, T_ref_C)
-            inner = read_table(master.shifts[["T_C", "log10_aT"]], SHIFT_COLUMNS)
-            source = replace(inner, file=source.file, sha256=source.sha256)
-    T = read_temperature(source)
+        source, master = read_table(table, ("T_C",)), None
+        if is_sweep_table(source):
+            master = shift_sweeps(source, T_ref_C, **shifting)
+    if master is not None:
+        if other_sign:
+            raise ValueError("other_sign is set for sweeps; expected it for shift factors only")
+        T, log_aT = (master.shifts[name].to_numpy(dtype=float) for name in SHIFT_COLUMNS)
+        rows = nothing
+    else:
+        assert source is not None
+        T, log_aT, rows = read_temperature(source), _logarithms(source), source.rows
+    keep = np.ones(T.size, dtype=bool)
+    out: tuple[LeftOut, ...] = ()
+    if window is not None:
+        low, high = window
+        if not low < high:
+            raise ValueError(f"window is {low:g} to {high:g}; expected two rising temperatures")
+        keep = (low <= T) & (high >= T)
+        numbers = rows if rows.size else np.arange(1, T.size + 1)
+        out = left_out(numbers, ~keep, f"outside the window {low:g} to {high:g} deg C")
+    return ShiftFactors(
+        T=T[keep],
+        log_aT=-log_aT[keep] if other_sign else log_aT[keep],
+        rows=rows[keep] if rows.size else nothing,
+        out=out,
+        source=source,
+        master=master,
+    )
+
+
+def _logarithms(source: Table) -> Array:
     if source.has("aT") and not source.has("log10_aT"):
         aT = source.numbers("aT")
         source.require_all("aT", aT > 0.0, "a shift factor above 0")
-        return source, T, np.log10(aT)
+        return np.log10(aT)
     source.require(SHIFT_COLUMNS)
-    return source, T, source.numbers("log10_aT")
+    return source.numbers("log10_aT")
+
+
+def _about_rows(data: ShiftFactors) -> dict[str, Any]:
+    about: dict[str, Any] = {"rows_left_out": [str(entry) for entry in data.out]}
+    if data.master is None:
+        return {"rows_used": data.T.size, **about}
+    shifts, curve = data.master.shifts, data.master.curve
+    frequency = curve["frequency_Hz"]
+    return {
+        "rows_used": len(curve),
+        **about,
+        "frequency_window_Hz": [float(frequency.min()), float(frequency.max())],
+        "vertical_shift": data.master.vertical,
+        "b_T": shifts["b_T"].tolist(),
+        "overlap_error_decades": data.master.overlap_error,
+        "notes": list(data.master.notes),
+    }
+
+
+def _require_factors(data: ShiftFactors, reference: float) -> None:
+    """Refuse too few temperatures, and factors of the other sign convention."""
+    T, log_aT = data.T, data.log_aT
+    if np.unique(T).size < 3:
+        raise DataError(
+            file=data.file,
+            column="T_C",
+            found=f"{np.unique(T).size} different temperatures",
+            expected="at least 3 for d1, d2 and the offset",
+        )
+    slope = float(np.polyfit(T, log_aT, 1)[0])
+    if slope <= 0.0 or data.master is not None:
+        return
+    found = f"shift factors that rise with temperature, by {slope:.3g} decades per K"
+    try:
+        turned = _fitted(T - reference, -log_aT)
+        values = turned.values
+        hint = f" (d1 = {values['d1']:.2f}, d2 = {values['d2_K']:.2f} K at {reference:g} deg C)"
+    except ValueError:
+        hint = ""
+    raise DataError(
+        file=data.file,
+        column="log10_aT",
+        found=found,
+        expected="factors that fall: these are of the other sign convention, 1/a_T; turn the sign "
+        f"of the logarithms, or read them with --other-sign{hint}",
+    )
+
+
+def _refuse_no_curve(data: ShiftFactors, result: FitResult) -> None:
+    """Refuse what is no WLF curve, so that no parameter file tells otherwise."""
+    problem = result.problem
+    assert problem is not None
+    bounded = [
+        f"{name} = {value:.6g} at its bound"
+        for name, value, low, high in zip(
+            result.names, result.theta, problem.lower, problem.upper, strict=True
+        )
+        if value <= low * (1.0 + 1e-3) or value >= high / (1.0 + 1e-3)
+    ]
+    if result.r2 >= LEAST_R2 and not bounded:
+        return
+    master = data.master
+    reasons = [f"R2 = {result.r2:.2g}"] if not result.r2 >= LEAST_R2 else []
+    reasons += bounded
+    if master is not None:
+        reasons += [f"overlap error {master.overlap_error:.2g} decades", *master.warnings]
+    raise DataError(
+        file=data.file,
+        column="T_C",
+        found=f"shift factors that no WLF curve follows ({'; '.join(reasons)})",
+        expected="factors that fall with temperature along a curved line, above the glass "
+        "transition (--window leaves temperatures out)",
+    )
+
+
+def _glass_warnings(data: ShiftFactors, wlf: WLF, reference: float) -> tuple[str, ...]:
+    glass = reference - wlf.d2_K + _GLASS_TO_POLE_K
+    below = np.unique(data.T[glass - _GLASS_SPAN_K > data.T])
+    if not below.size:
+        return ()
+    listed = ", ".join(f"{value:g}" for value in below)
+    return (
+        f"{listed} deg C lie below {glass:.4g} deg C, where these constants put the glass "
+        f"transition (d2 = {_GLASS_TO_POLE_K:g} K there); WLF does not hold below it",
+    )
+
+
+def _fitted(dT: Array, log_aT: Array) -> FitResult:
+    problem = _wlf_problem(dT, log_aT)
+    return fit(problem, _wlf_starts(problem, dT, log_aT))
 
 
 def _wlf_problem(dT: Array, log_aT: Array) -> Problem:
@@ -264,7 +286,7 @@ def _wlf_problem(dT: Array, log_aT: Array) -> Problem:
         reached = d2 + dT
         return np.stack([-dT / reached, d1 * dT / reached**2, np.ones_like(dT)], axis=1)
 
-    pole = max(float(-dT.min()), 0.0) + 1.0  # keeps every temperature 1 K above the pole
+    pole = max(float(-dT.min()), 0.0) + _POLE_DISTANCE_K
     return Problem(
         names=("d1", "d2_K", "offset"),
         predict=predict,

@@ -58,7 +58,7 @@ class Case(Section):
                 str(pressure),
                 f"at most {_HARDEST_PRESS * modulus:.4g} N/mm^2, ten times the shear modulus",
             )
-        pole = self.friction.T_ref_C - self.friction.d2_K
+        pole = self.friction.pole_C
         if self.friction.wlf and self.heat.ambient_C <= pole:
             refuse(
                 "heat.ambient_C",

@@ -62,6 +62,9 @@ class Friction(Section):
     d1: Positive = Field(43.1, description="WLF constant [-]")
     d2_K: Positive = Field(509.4, description="WLF constant [K]")
     T_ref_C: Celsius = Field(20.0, description="temperature the law was measured at [deg C]")
+    wlf_T_ref_C: Celsius | None = Field(
+        None, description="temperature d1 and d2_K refer to [deg C]; T_ref_C where left out"
+    )
     p_min_N_per_mm2: Positive = Field(1e-3, description="pressure floor of the law [N/mm^2]")
     v_min_mm_per_s: Positive = Field(1.0, description="velocity floor of the law [mm/s]")
 
@@ -106,5 +109,28 @@ class Friction(Section):
 
     def law_object(self) -> ThermalFriction:
         """Build the law mu(p, v, T) with its WLF shift."""
-        shift = WLF(d1=self.d1, d2_K=self.d2_K) if self.wlf else None
+        shift = self.shift() if self.wlf else None
         return ThermalFriction(law=self.plain_law(), wlf=shift, T_ref_C=self.T_ref_C)
+
+    def shift(self) -> WLF:
+        """Build the WLF shift for the temperature of the law, whatever its constants refer to."""
+        given = WLF(d1=self.d1, d2_K=self.d2_K)
+        if self.wlf_T_ref_C is None:
+            return given
+        return given.rebased(self.wlf_T_ref_C, self.T_ref_C)
+
+    @property
+    def pole_C(self) -> float:
+        """Temperature at which the WLF shift ends [deg C]."""
+        return (self.T_ref_C if self.wlf_T_ref_C is None else self.wlf_T_ref_C) - self.d2_K
+
+    def described(self) -> str:
+        """The law and its temperatures in one line, for the log of a run."""
+        text = f"friction: law {self.law} at {self.T_ref_C:g} deg C"
+        if not self.wlf:
+            return f"{text}, no WLF shift"
+        shift = self.shift()
+        text += f", WLF shift d1 = {shift.d1:.6g}, d2 = {shift.d2_K:.6g} K there"
+        if self.wlf_T_ref_C in (None, self.T_ref_C):
+            return text
+        return f"{text} (d1 = {self.d1:g}, d2 = {self.d2_K:g} K at {self.wlf_T_ref_C:g} deg C)"

@@ -87,10 +87,29 @@ def expand_references(source: Source) -> None:
         if not isinstance(content, dict):
             found = f"{describe(name)} without a table [{section}]"
             _raise(here, key, found, f"a parameter file with a table [{section}]")
+        if section == "friction":
+            content = _shift_of(content, table, here, name)
         for inner in content:
             if inner not in table:
                 source.origins[(section, inner)] = str(path)
         source.tables[section] = {**content, **table}
+
+
+def _shift_of(content: Table, own: Table, file: str, name: str) -> Table:
+    """A parameter file's [friction] without what would mix the temperatures of law and shift."""
+    constants = [key for key in ("d1", "d2_K") if key in content]
+    law = [key for key in ("law", *ALL_PARAMETERS) if key in content]
+    if "T_ref_C" in content and constants and not law:
+        found = f"{describe(name)} with T_ref_C and {constants[0]} but no law"
+        expected = "wlf_T_ref_C for the temperature of d1 and d2_K: T_ref_C is that of the law"
+        _raise(file, "friction.parameters", found, expected)
+    replaced = [key for key in ("d1", "d2_K") if key in own]
+    if replaced and "wlf_T_ref_C" in content and "wlf_T_ref_C" not in own:
+        if len(replaced) == 1:
+            found = f"{replaced[0]} here and the other WLF constant in {describe(name)}"
+            _raise(file, f"friction.{replaced[0]}", found, "both of d1 and d2_K, or neither")
+        content = {key: value for key, value in content.items() if key != "wlf_T_ref_C"}
+    return content
 
 
 def parse_override(text: str) -> tuple[str, Any]:

@@ -47,7 +47,7 @@ class _RigidRun:
         self.work = self.capped = self.time = self.distance = self.position = 0.0
         self._due = snapshots_due(case)
         self.log = [f"rigid {case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
-                    f"{len(self.mesh.cells)} elements"]  # fmt: skip
+                    f"{len(self.mesh.cells)} elements", case.friction.described()]  # fmt: skip
         self.point = self._point()
 
     @property

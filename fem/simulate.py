@@ -104,7 +104,8 @@ class _Run:
         self.audit = EnergyAudit()
         self.iterations = self.rejected = 0
         self.log = [f"{case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
-                    f"{len(self.model.mechanics.mesh.cells)} elements"]  # fmt: skip
+                    f"{len(self.model.mechanics.mesh.cells)} elements",
+                    case.friction.described()]  # fmt: skip
         self.snapshot_distances = snapshots_due(case)
         self.point = self._point(-1, 0.0, 0.0, np.inf)
 

@@ -6,6 +6,7 @@ import tomllib
 import pandas as pd
 import pytest
 
+import treadfem
 from calibration import commands, simulation_store
 from calibration.conductance import synthetic_heating_record
 from calibration.datasets import dataset_path
@@ -54,6 +55,36 @@ def test_options_reach_the_fit(tmp_path):
     assert not (tmp_path / "o" / "models.csv").exists()
 
 
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("hyperelastic --noise -1", "--noise: found -1, expected a number above 0"),
+        ("hyperelastic --noise 0", "--noise: found 0, expected a number above 0"),
+        ("friction --noise nan", '--noise: found "nan", expected a finite number'),
+        ("friction --T-ref nan", '--T-ref: found "nan", expected a finite number'),
+        ("friction --T-ref -300", "--T-ref: found -300, expected a temperature above"),
+        ("friction --d1 0", "--d1: found 0, expected a number above 0"),
+        ("friction --fix n", '--fix: found "n", expected NAME=VALUE'),
+        ("friction --fix n=x", '--fix: found "x", expected a finite number'),
+        ("friction --starts 0", '--starts: found "0", expected a whole number, 1 or more'),
+        ("friction --starts " + "9" * 5000, "expected a whole number, 1 or more"),
+        ("partition --simulations 0", '--simulations: found "0", expected a whole number'),
+        ("hyperelastic --cycle first", '--cycle: found "first", expected "last-full"'),
+        ("hyperelastic --window 1 inf", '--window: found "inf", expected a finite number'),
+        ("wlf --expansion -1", "--expansion: found -1, expected 0 or more"),
+        ("wlf --T-tolerance 1K", '--T-tolerance: found "1K", expected a finite number'),
+    ],
+)
+def test_options_that_cannot_be_meant_are_refused_in_one_line(words, expected, capsys):
+    kind, *options = words.split()
+    with pytest.raises(SystemExit) as stopped:
+        treadfem.main(["calibrate", kind, "data.csv", *options])
+    assert stopped.value.code == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert expected in line
+    assert len(line) < 300
+
+
 @pytest.mark.parametrize("kind", ["student", "profile", "bootstrap"])
 def test_intervals_can_be_asked_for(kind, tmp_path, capsys):
     words = ["--model", "van-der-waals", "--intervals", kind, "--no-compare"]
@@ -100,7 +131,8 @@ def test_sweeps_leave_a_master_curve(tmp_path, capsys):
     names = {"shift_factors.csv", "master_curve.csv", "master_curve.png"}
     assert names <= {path.name for path in (tmp_path / "o").iterdir()}
     content = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())
-    assert content["friction"]["T_ref_C"] == 20.0
+    assert content["friction"]["wlf_T_ref_C"] == 20.0
+    assert "T_ref_C" not in content["friction"]
     assert content["friction"]["d1"] == pytest.approx(17.0, rel=0.02)
 
 

@@ -4,6 +4,7 @@ import hashlib
 import tomllib
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from calibration import fit_friction, fit_hyperelastic, fit_wlf
@@ -86,6 +87,44 @@ def test_a_case_takes_a_fitted_shift_for_its_own_law(tmp_path):
     case_file = tmp_path / "case.toml"
     case_file.write_text('[friction]\nlaw = "huemer"\nparameters = "wlf.toml"\n' + LOADING)
     assert Case.from_toml(case_file).friction.law_object().wlf == result.model
+
+
+@pytest.mark.parametrize("zero_C", [-25.0, -5.0, 20.0, 60.0])
+def test_a_fitted_shift_leaves_the_law_at_its_own_temperature(zero_C, tmp_path):
+    shift, T = WLF(d1=25.0, d2_K=141.0).rebased(-5.0, zero_C), np.linspace(-40.0, 90.0, 14)
+    factors = pd.DataFrame({"T_C": T, "log10_aT": shift.log10_shift_factor(T, zero_C)})
+    fit_wlf(factors, T_ref_C=zero_C).to_toml(tmp_path / "wlf.toml")
+    case_file = tmp_path / "case.toml"
+    case_file.write_text('[friction]\nparameters = "wlf.toml"\n' + LOADING)
+    case = Case.from_toml(case_file)
+    law = case.friction.law_object()
+    assert law.T_ref_C == 20.0
+    assert law.coefficient(0.25, 300.0, 20.0) == HuemerFriction().coefficient(0.25, 300.0)
+    # between two temperatures the shift is that of the measurement, whatever they refer to
+    expected = shift.log10_shift_factor(47.0, zero_C) - shift.log10_shift_factor(20.0, zero_C)
+    assert law.wlf.log10_shift_factor(47.0, 20.0) == pytest.approx(expected, rel=1e-6)
+    assert f"at {zero_C:g} deg C" in case.friction.described()
+    again = Case.from_dict(tomllib.loads(case.to_toml()))
+    assert again.friction.law_object() == law
+
+
+def test_shift_constants_of_a_case_do_not_mix_with_the_temperature_of_a_file(tmp_path):
+    (tmp_path / "wlf.toml").write_text("[friction]\nd1 = 25.0\nd2_K = 141.0\nwlf_T_ref_C = -5.0\n")
+    (tmp_path / "old.toml").write_text("[friction]\nd1 = 25.0\nd2_K = 141.0\nT_ref_C = -5.0\n")
+
+    def case(friction):
+        return Case.from_dict(
+            {"friction": friction, "loading": tomllib.loads(LOADING)["loading"]}, folder=tmp_path
+        )
+
+    own = case({"parameters": "wlf.toml", "d1": 10.0, "d2_K": 100.0}).friction
+    assert own.shift() == WLF(d1=10.0, d2_K=100.0)
+    with pytest.raises(ValueError, match="d1 here and the other WLF constant"):
+        case({"parameters": "wlf.toml", "d1": 10.0})
+    with pytest.raises(ValueError, match="T_ref_C and d1 but no law, expected wlf_T_ref_C"):
+        case({"parameters": "old.toml"})
+    with pytest.raises(ValueError, match=r"friction\.law: found reference temperature -170"):
+        case({"parameters": "wlf.toml", "T_ref_C": -170.0})
 
 
 @pytest.mark.parametrize("model", STRESS_MODELS)
