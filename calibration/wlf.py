@@ -216,19 +216,18 @@ def _require_factors(data: ShiftFactors, reference: float) -> None:
     slope = float(np.polyfit(T, log_aT, 1)[0])
     if slope <= 0.0 or data.master is not None:
         return
-    found = f"shift factors that rise with temperature, by {slope:.3g} decades per K"
+    found = f"factors that rise with temperature ({slope:.3g} decades per K)"
     try:
         turned = _fitted(T - reference, -log_aT)
         values = turned.values
-        hint = f" (d1 = {values['d1']:.2f}, d2 = {values['d2_K']:.2f} K at {reference:g} deg C)"
+        hint = f": d1 = {values['d1']:.2f}, d2 = {values['d2_K']:.2f} K at {reference:g} deg C"
     except ValueError:
         hint = ""
     raise DataError(
         file=data.file,
         column="log10_aT",
         found=found,
-        expected="factors that fall: these are of the other sign convention, 1/a_T; turn the sign "
-        f"of the logarithms, or read them with --other-sign{hint}",
+        expected=f"factors that fall; these have the other sign convention, 1/a_T (--other-sign{hint})",
     )
 
 
