@@ -23,6 +23,7 @@ from calibration.outcomes import (
 from calibration.partition import MOST_SIMULATIONS
 from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStoppedError
 from calibration.stress_models import STRESS_MODELS
+from calibration.stress_zero import Zero
 from calibration.tables import ABSOLUTE_ZERO_C
 from fem.case import Case
 from fem.case_errors import CaseError, describe
@@ -93,6 +94,11 @@ def _add_hyperelastic(parser: argparse.ArgumentParser) -> None:
         "--window", nargs=2, type=_finite, metavar=("LOW", "HIGH"), help="stretches used"
     )
     parser.add_argument("--mode", choices=MODES, action="append", help="may be repeated")
+    parser.add_argument(
+        "--zero", choices=get_args(Zero), default="none",
+        help="subtract the stress of the first row (preload), or refer the test to the length at "
+        "which the loop comes back to zero stress (permanent set)",
+    )  # fmt: skip
     parser.add_argument("--weights", choices=("equal", "modes", "relative"), default="equal")
     _add_common(parser, "N/mm^2")
 
@@ -104,6 +110,7 @@ def _add_hyperelastic(parser: argparse.ArgumentParser) -> None:
             branch=arguments.branch,
             window=None if arguments.window is None else tuple(arguments.window),
             modes=arguments.mode,
+            zero=arguments.zero,
             weights=arguments.weights,
             noise_N_per_mm2=0.05 if arguments.noise is None else arguments.noise,
             **_common(arguments),

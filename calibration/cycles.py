@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 Branch = Literal["both", "load", "unload"]
 BRANCHES = ("load", "unload")
 
+_TOO_FEW_TO_TELL = 6  # rows
 _SAME_LEVEL = 0.02  # strain amplitudes within 2 % of the highest count as the highest level
 
 
@@ -40,8 +41,12 @@ def label_cycles(
     cycle : ndarray of int, shape (n,)
         1, 2, ...; a cycle begins where loading begins.
     branch : ndarray of str, shape (n,)
-        "load" where the distance from the undeformed state grows, else "unload".
+        "load" where the distance from the undeformed state grows, else "unload". A record that
+        only rises or only falls and passes the undeformed state holds no return: a table sorted
+        from compression to tension, all of it loading.
     """
+    if _passes_through(stretch):
+        return np.ones(stretch.size, dtype=np.int64), np.full(stretch.size, "load", dtype="<U6")
     strain = np.abs(stretch - 1.0)
     turns = _turning_points(strain, hysteresis * float(np.ptp(strain)))
     branch = np.empty(stretch.size, dtype="<U6")
@@ -55,20 +60,42 @@ def label_cycles(
     return cycle, branch
 
 
-def _turning_points(strain: Array, threshold: float) -> list[int]:
+def is_in_order_of_recording(stretch: Array) -> bool:
+    """Whether the stretch runs up and down as in a test, rather than from row to row at random.
+
+    Nor are tables sorted by the stretch recorded, in which a loop has two rows at every stretch.
+    """
+    if stretch.size < _TOO_FEW_TO_TELL:
+        return True
+    steps = np.diff(stretch)
+    if np.all(steps >= 0.0) or np.all(steps <= 0.0):
+        return bool(np.count_nonzero(steps == 0.0) < 0.25 * steps.size)
+    turns = _turning_points(stretch, 0.02 * float(np.ptp(stretch)))
+    return len(turns) - 2 <= stretch.size / 3.0
+
+
+def _passes_through(stretch: Array) -> bool:
+    """Whether the stretch goes from compression to tension (or back) without a turn."""
+    steps = np.diff(stretch)
+    one_way = bool(np.all(steps >= 0.0) or np.all(steps <= 0.0))
+    return one_way and bool(stretch.min() < 1.0 < stretch.max())
+
+
+def _turning_points(values: Array, threshold: float) -> list[int]:
     """Indices where the direction changes by more than the threshold, with both ends."""
     turns, extreme, direction = [0], 0, 0
-    for i in range(1, strain.size):
+    strain = values.tolist()  # plain numbers: this loop is the slow part of a million rows
+    for i in range(1, len(strain)):
         change = strain[i] - strain[extreme]
         if direction == 0:
             if abs(change) > threshold:
-                direction, extreme = int(np.sign(change)), i
+                direction, extreme = (1 if change > 0.0 else -1), i
         elif change * direction > 0.0:
             extreme = i
         elif abs(change) > threshold:
             turns.append(extreme)
             direction, extreme = -direction, i
-    return [*turns, strain.size - 1] if turns[-1] != strain.size - 1 else turns
+    return [*turns, len(strain) - 1] if turns[-1] != len(strain) - 1 else turns
 
 
 def last_full_cycle(

@@ -15,7 +15,7 @@ from calibration.conductance import conductance_constant, fit_conductance, read_
 from calibration.fit_core import FitResult
 from calibration.friction import compare_laws, fit_friction, read_friction
 from calibration.heating_rig import HeatingRig
-from calibration.hyperelastic import compare_models, fit_hyperelastic, select_data
+from calibration.hyperelastic import CHOICES, compare_models, fit_hyperelastic
 from calibration.parameter_file import parameter_text
 from calibration.partition import PartitionFit, fit_partition
 from calibration.plots import (
@@ -31,6 +31,7 @@ from calibration.plots import (
 from calibration.rig_file import read_contact_surface, read_heating_rig
 from calibration.simulation_progress import SimulationProgress
 from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStore
+from calibration.stress_data import select_data
 from calibration.wlf import fit_wlf, read_shift_factors
 from fem.atomic_files import staged_directory
 from fem.case import Case
@@ -76,7 +77,7 @@ def calibrate_hyperelastic(
     path: str | Path, *, compare: bool = True, intervals: str = "student", **options: Any
 ) -> Outcome:
     """Fit a hyperelastic model to the CSV file `path` (options of `fit_hyperelastic`)."""
-    choice = {k: options.pop(k) for k in ("cycle", "branch", "window", "modes") if k in options}
+    choice = {key: options.pop(key) for key in CHOICES if key in options}
     model = options.pop("model", "yeoh")
     data = select_data(path, **choice)
     result = _with_intervals(fit_hyperelastic(data, model, **options), intervals)

@@ -79,7 +79,7 @@ def _provenance(result: Fit) -> dict[str, Any]:
     known = dict(result.metadata)
     stability = known.pop("stability", None)
     if isinstance(stability, Stability):
-        known["stability"] = "; ".join(stability.warnings) or "stable over the data"
+        known["stability"] = stability.text
     if "data_file" in known:
         known["data_file"] = Path(str(known["data_file"])).name
     return {

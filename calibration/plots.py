@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from calibration.conductance import HeatingRecord
 from calibration.fit_core import FitResult
 from calibration.friction import FrictionData
-from calibration.hyperelastic import StressData
 from calibration.master_curve import MasterCurve
+from calibration.stress_data import StressData
 
 Array = NDArray[np.float64]
 

@@ -227,7 +227,8 @@ def _require_factors(data: ShiftFactors, reference: float) -> None:
         file=data.file,
         column="log10_aT",
         found=found,
-        expected=f"factors that fall; these have the other sign convention, 1/a_T (--other-sign{hint})",
+        expected="factors that fall; these have the other sign convention, 1/a_T "
+        f"(--other-sign{hint})",
     )
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from calibration import DataError, fit_hyperelastic
 from calibration.cycles import label_cycles, last_full_cycle
-from calibration.hyperelastic import select_data
+from calibration.stress_data import select_data
 from calibration.synthetic import synthetic_bar_cycles, synthetic_dumbbell_cycles
 from materials import compound
 
@@ -83,4 +83,4 @@ def test_a_cycle_that_is_not_there_is_refused():
     ):
         select_data(bars, cycle=9)
     with pytest.raises(DataError, match="found no cycle with both a load and an unload branch"):
-        select_data(bars[bars["branch"] == "load"])
+        select_data(bars[bars["branch"] == "load"], cycle="last-full")

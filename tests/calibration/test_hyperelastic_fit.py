@@ -7,7 +7,7 @@ from scipy.optimize import least_squares
 
 from calibration import DataError, compare_models, fit_hyperelastic
 from calibration.datasets import DATASETS, dataset_path
-from calibration.hyperelastic import select_data
+from calibration.stress_data import select_data
 from calibration.stress_models import STRESS_MODELS, Kinematics
 from calibration.synthetic import TABLE_1, synthetic_stress
 from materials import COMPOUNDS, MODES
