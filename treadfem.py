@@ -157,7 +157,8 @@ def _add_strict(parser: argparse.ArgumentParser) -> None:
 def _run(arguments: argparse.Namespace) -> int:
     case = _load(arguments)
     directory = chosen_output(arguments.output, Path("results") / Path(arguments.case).stem)
-    with output_folder(directory, files=RUN_FILES, folders=[FIGURES_FOLDER]):
+    files = (*RUN_FILES, CHECKPOINT_FILE)
+    with output_folder(directory, files=files, folders=[FIGURES_FOLDER]):
         return _run_in(directory, case, arguments)
 
 

@@ -21,7 +21,7 @@ from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
 from fem.columns import SURFACE
 from fem.outcome import INTERRUPTED, OK
 from fem.program_version import program_version
-from fem.results import SURFACE_FILE, read_summary, read_table
+from fem.results import SURFACE_FILE, missing_files, read_summary, read_table
 from fem.resume import gone_on_with
 from fem.simulate import simulate
 
@@ -83,7 +83,7 @@ class SimulationStore:
         """
         folder = self.directory / case.hash()[:16]
         marker = {"case_hash": case.hash(), "version": program_version()}
-        if not _finished(folder, marker):
+        if not _finished(folder, marker, case):
             self._simulate(case, label, folder)
             write_text(folder / MARKER, json.dumps(marker, indent=2) + "\n")
         return _read(folder)
@@ -105,11 +105,13 @@ class SimulationStore:
         self.simulated += 1
 
 
-def _finished(folder: Path, marker: dict[str, str]) -> bool:
+def _finished(folder: Path, marker: dict[str, str], case: Case) -> bool:
     try:
-        return bool(json.loads((folder / MARKER).read_text(encoding="utf-8")) == marker)
-    except (OSError, ValueError):
+        read_summary(folder)
+        same = json.loads((folder / MARKER).read_text(encoding="utf-8")) == marker
+    except (OSError, ValueError, RecursionError):
         return False
+    return bool(same) and not missing_files(folder, case)
 
 
 def _read(folder: Path) -> Slide:

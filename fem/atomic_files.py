@@ -36,10 +36,11 @@ def replacing(path: str | Path) -> Iterator[Path]:
     os.close(number)
     temporary = Path(name)
     try:
-        temporary.chmod(0o666 & ~_umask())
-        yield temporary
-        _on_disk(temporary)
-        os.replace(temporary, path)
+        with _faults_of(path):
+            temporary.chmod(0o666 & ~_umask())
+            yield temporary
+            _on_disk(temporary)
+            os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -80,15 +81,16 @@ def staged_directory(
     # mkdtemp makes the folder private to its owner; the result has the usual permissions.
     stage.chmod(0o777 & ~_umask())
     try:
-        yield stage
-        files = sorted(p.relative_to(stage) for p in stage.rglob("*") if p.is_file())
-        for name in files:
-            _on_disk(stage / name)
-        with deferring():
-            if place == target:
-                _merge(stage, target, files, outdated, last)
-            else:
-                os.replace(stage, target)
+        with _faults_of(target):
+            yield stage
+            files = sorted(p.relative_to(stage) for p in stage.rglob("*") if p.is_file())
+            for name in files:
+                _on_disk(stage / name)
+            with deferring():
+                if place == target:
+                    _merge(stage, target, files, outdated, last)
+                else:
+                    os.replace(stage, target)
     finally:
         shutil.rmtree(stage, ignore_errors=True)
 
@@ -108,6 +110,17 @@ def _merge(
             old.unlink()
     for name in sorted(files, key=lambda name: str(name) == last):
         os.replace(stage / name, target / name)
+
+
+@contextmanager
+def _faults_of(path: Path) -> Iterator[None]:
+    """Let faults of the system name what the user knows, not the temporary file (or nothing)."""
+    try:
+        yield
+    except OSError as error:
+        if error.filename is None or UNFINISHED in os.fsdecode(error.filename):
+            error.filename, error.filename2 = str(path), None
+        raise
 
 
 def _on_disk(path: Path) -> None:

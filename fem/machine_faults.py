@@ -12,6 +12,7 @@ _WORDS = {
     errno.EROFS: "the disk is read-only",
     errno.EACCES: "no permission",
     errno.ENAMETOOLONG: "a name that is too long",
+    errno.EBADF: "closed",
     errno.EMFILE: "too many open files (ulimit -n)",
 }
 OUT_OF_MEMORY = "use a coarser mesh, fewer workers or a machine with more memory"
@@ -29,7 +30,7 @@ def one_line(error: OSError | MemoryError) -> str:
     """The whole fault in one line, with the file where one is known."""
     if isinstance(error, MemoryError):
         return f"out of memory: {OUT_OF_MEMORY}"
-    name = error.filename2 or error.filename
+    name = error.filename
     place = f"{os.fsdecode(name)}: " if isinstance(name, str | bytes | os.PathLike) else ""
     return " ".join(f"{place}{cause(error)}".split())
 

@@ -114,7 +114,9 @@ def check_output_file(path: str | Path) -> None:
     """
     check_output_folder(Path(path).parent)
     if Path(path).is_dir():
-        raise CaseError(file=str(path), key="-o", found="a folder", expected="a file")
+        raise _refused(path, "a folder", "a file")
+    if Path(path).is_symlink() and not Path(path).exists():
+        raise _refused(path, "a link to nowhere", "a file")
 
 
 def _nearest_existing(path: Path) -> Path:

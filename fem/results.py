@@ -14,9 +14,10 @@ import pandas as pd
 
 from fem.atomic_files import staged_directory
 from fem.case import Case
+from fem.case_errors import describe
 from fem.columns import HISTORY, SUMMARY, SURFACE, in_order
 from fem.snapshot import BlockGeometry, Snapshot
-from fem.vtu import read_fields, write_fields
+from fem.vtu import FIELD_COLLECTIONS, collected, read_fields, write_fields
 
 CASE_FILE = "case.toml"
 LOG_FILE = "run.log"
@@ -24,7 +25,7 @@ HISTORY_FILE = "history.csv"
 SURFACE_FILE = "surface.csv"
 SUMMARY_JSON = "summary.json"
 SUMMARY_CSV = "summary.csv"
-FIELD_FILES = ("block_*.vtu", "road_*.vtu", "block.pvd", "road.pvd")
+FIELD_FILES = ("block_*.vtu", "road_*.vtu", *FIELD_COLLECTIONS)
 FIGURES_FOLDER = "figures"
 #: Files of every run, fields or not.
 RUN_FILES = (CASE_FILE, LOG_FILE, HISTORY_FILE, SURFACE_FILE, SUMMARY_CSV, SUMMARY_JSON)
@@ -147,14 +148,40 @@ def write_summary(directory: str | Path, summary: Mapping[str, Any]) -> None:
 
 
 def read_summary(directory: str | Path) -> dict[str, Any]:
-    """Read `summary.json`; a value that could not be computed is None."""
+    """Read `summary.json`; a value that could not be computed is None.
+
+    Raises
+    ------
+    ValueError
+        If it is missing or damaged.
+    """
     path = _existing(Path(directory) / SUMMARY_JSON)
     try:
         summary = json.loads(path.read_text(encoding="utf-8"))
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:
         raise ValueError(f"{path} is not JSON ({error})") from None
+    if not isinstance(summary, dict):
+        raise ValueError(f"{path} holds {describe(summary)}, not the results of a run")
     in_order(list(summary), SUMMARY, str(path))
-    return dict(summary)
+    for key in SUMMARY:
+        value, text = summary[key], key == "status"
+        number = value is None or (isinstance(value, int | float) and not isinstance(value, bool))
+        if not (isinstance(value, str) if text else number):
+            expected = "a word" if text else "a number"
+            raise ValueError(f"{path}: {key} is {describe(value)}, not {expected}")
+    return summary
+
+
+def missing_files(directory: str | Path, case: Case) -> list[str]:
+    """Names of the files that the finished run of a case has and the folder has not."""
+    directory = Path(directory)
+    fields = FIELD_COLLECTIONS if case.output.vtu else ()
+    missing = [name for name in (*RUN_FILES, *fields) if not (directory / name).is_file()]
+    for name in set(fields) - set(missing):
+        missing += [
+            part for part in collected(directory / name) if not (directory / part).is_file()
+        ]
+    return missing
 
 
 def read_table(path: str | Path, required: tuple[str, ...]) -> pd.DataFrame:

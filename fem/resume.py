@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from fem.case import Case
-from fem.case_errors import CaseError
+from fem.case_errors import CaseError, describe
 from fem.checkpoint import (
     CHECKPOINT_FILE,
     CheckpointError,
@@ -16,7 +16,8 @@ from fem.checkpoint import (
     remove_checkpoint,
 )
 from fem.outcome import OK
-from fem.results import CASE_FILE, Result, read_summary
+from fem.program_version import program_version
+from fem.results import CASE_FILE, SUMMARY_JSON, Result, missing_files, read_summary
 
 
 def resumable(directory: str | Path, case: Case) -> Literal["checkpoint", "finished", "nothing"]:
@@ -25,16 +26,16 @@ def resumable(directory: str | Path, case: Case) -> Literal["checkpoint", "finis
     Raises
     ------
     CheckpointError
-        If the checkpoint is damaged or of another version, or if checkpoint or result are of
-        another case.
+        If the checkpoint is damaged, or if checkpoint or result are of another case or version.
     """
     directory = Path(directory)
     if (directory / CHECKPOINT_FILE).exists():
         check_checkpoint(directory / CHECKPOINT_FILE, case)
         return "checkpoint"
-    if not _finished(directory):
+    if not _finished(directory, case):
         return "nothing"
     _check_same_case(directory / CASE_FILE, case)
+    _check_same_program(directory)
     return "finished"
 
 
@@ -49,11 +50,23 @@ def gone_on_with(
         return run(case, checkpoint=checkpoint, **options)
 
 
-def _finished(directory: Path) -> bool:
+def _finished(directory: Path, case: Case) -> bool:
+    """Whether a run ended here as it should and all of its files are there."""
     try:
-        return bool(read_summary(directory)["status"] == OK)
+        return read_summary(directory)["status"] == OK and not missing_files(directory, case)
     except ValueError:
         return False
+
+
+def _check_same_program(directory: Path) -> None:
+    found = read_summary(directory).get("program_version")
+    if found != program_version():
+        raise CheckpointError(
+            file=str(directory / SUMMARY_JSON),
+            key="program version",
+            found=f"{describe(found)} in a finished run",
+            expected=f"{program_version()} (or another folder, or no --resume)",
+        )
 
 
 def _check_same_case(path: Path, case: Case) -> None:

@@ -30,6 +30,9 @@ PRESSURE = "volumetric_stress_N_per_mm2"
 TIME = "time_s"
 DISTANCE = "sliding_distance_mm"
 
+#: What lists the field files of a run.
+FIELD_COLLECTIONS = ("block.pvd", "road.pvd")
+
 #: Position of xx, yy, zz, xy in VTK's order.
 _VTK_POSITION = (0, 1, 2, 3)
 
@@ -75,6 +78,15 @@ def read_fields(directory: str | Path) -> tuple[BlockGeometry, list[Snapshot]]:
         snapshots.append(_snapshot(block, road))
     assert geometry is not None
     return geometry, snapshots
+
+
+def collected(path: str | Path) -> list[str]:
+    """Names of the field files that a `.pvd` lists; one that cannot be there if it is damaged."""
+    try:
+        root = ElementTree.parse(path).getroot()
+    except ElementTree.ParseError:
+        return [f"(listed in the damaged {Path(path).name})"]
+    return [Path(entry.get("file", "?")).name for entry in root.iter("DataSet")]
 
 
 def _name(part: str, number: int) -> str:

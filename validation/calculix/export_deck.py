@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Literal
 
 from contact.friction import CoulombFriction
+from fem.atomic_files import write_text
 from fem.case import Case
 from fem.case_errors import CaseError
 from fem.mesh import BlockMesh
@@ -107,8 +108,7 @@ def input_deck(case: Case, options: DeckOptions | None = None) -> str:
 
 def write_deck(case: Case, path: str | Path, options: DeckOptions | None = None) -> Path:
     """Write the input deck of a case into a file."""
-    text = input_deck(case, options)
-    Path(path).write_text(text, encoding="utf-8")
+    write_text(path, input_deck(case, options))
     return Path(path)
 
 
@@ -134,7 +134,7 @@ def friction_remark(case: Case) -> str:
 def _heading(case: Case, options: DeckOptions) -> list[str]:
     lines = [
         "treadfem: pressed and sliding tread block, plane strain, 1 mm deep; N, mm",
-        f"case {Path(case.source).name}, content {case.hash()[:16]}",
+        f"case {' '.join(Path(case.source).name.split())}, content {case.hash()[:16]}",
         f"time 0 to {PRESSING_TIME:g}: pressing; then {PRESSING_TIME:g} + sliding distance [mm]",
         "left out: heat, inertia, Kelvin-Voigt regularisation, contact of the block with itself",
         "written for CalculiX. ABAQUS reads the second number of *FRICTION otherwise (leave it",

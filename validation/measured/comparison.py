@@ -12,7 +12,7 @@ import pandas as pd
 
 from calibration.errors import DataError
 from fem.case import Case
-from fem.case_errors import CaseError
+from fem.case_errors import CaseError, describe
 from fem.columns import SURFACE
 from fem.outcome import OK
 from fem.results import (
@@ -96,11 +96,25 @@ def _run_folders(directory: Path) -> list[Path]:
     if table.is_file():
         # Beside the runs of this sweep there may be those of another one.
         try:
-            names = pd.read_csv(table, dtype=str)["case"]
-            return [runs / name for name in names]
-        except (KeyError, ValueError):
+            names = pd.read_csv(table, dtype=str, keep_default_na=False)["case"]
+            return [runs / _plain_name(table, name) for name in names]
+        except KeyError:
             pass
+        except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
+            found = f"a damaged table ({error})"
+            expected = "what a sweep wrote (or no such file)"
+            raise CaseError(
+                file=str(table), key="content", found=found, expected=expected
+            ) from None
     return sorted(path for path in runs.iterdir() if (path / SUMMARY_JSON).is_file())
+
+
+def _plain_name(table: Path, name: str) -> str:
+    """Name of a run's folder, which must not lead anywhere else."""
+    if name in ("", ".", "..") or Path(name).name != name:
+        expected = "the name of a folder in runs"
+        raise CaseError(file=str(table), key="case", found=describe(name), expected=expected)
+    return name
 
 
 def _of_run(case: Case, summary: Mapping[str, Any]) -> dict[str, Any]:

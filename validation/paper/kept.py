@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import calibration
 import validation
@@ -73,8 +73,10 @@ def kept(
     known = _read(record)
     files = known.get("files", {})
     same = known.get("source") == source and files == _contents(name, Path(directory))
-    if same and files and not again:
-        return Made(Path(directory) / str(known["main"]), again=False)
+    # A name among its own files leads nowhere else, whatever was written into the record.
+    main = known.get("main")
+    if same and isinstance(main, str) and main in files and not again:
+        return Made(Path(directory) / main, again=False)
     record.unlink(missing_ok=True)
     path = make()
     about = {
@@ -87,10 +89,11 @@ def kept(
     return Made(path, again=True)
 
 
-def _read(record: Path) -> dict[str, object]:
+def _read(record: Path) -> dict[str, Any]:
+    """What the record says; nothing if there is none, or it is damaged."""
     try:
         known = json.loads(record.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
     return known if isinstance(known, dict) and isinstance(known.get("files"), dict) else {}
 

@@ -10,14 +10,17 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import json
+import math
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
 from fem.case import Case
-from fem.case_errors import CaseError, describe
+from fem.case_errors import CaseError, describe, suggestion
 from fem.case_reading import read_toml
 
 #: The study files of the paper's figures.
@@ -26,6 +29,8 @@ STUDIES = Path(__file__).parents[1] / "studies"
 INTRODUCTORY = "introductory"
 _LONGEST_NAME = 120
 _KEYS = ("base", "grid", "case", "names")
+#: Case keys whose value names a file.
+_FILE_KEYS = ("parameters", "file")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,43 +60,104 @@ def read_study(path: str | Path) -> list[StudyCase]:
     CaseError
         With file, key, what was found and what was expected, in one line.
     """
-    path = Path(path)
+    study = _read_tables(Path(path))
+    overrides = list(study.combinations())
+    if _has_twins(overrides):
+        _refuse(study.path, "grid", "the same combination twice", "different values")
+    cases = [
+        StudyCase(
+            name=name, overrides=values, case=Case.from_toml(study.base, _from_here(study, values))
+        )
+        for name, values in zip(_folder_names(overrides, study.names), overrides, strict=True)
+    ]
+    return cases
+
+
+def number_of_cases(path: str | Path) -> int:
+    """How many cases a study file stands for, without making them."""
+    study = _read_tables(Path(path))
+    return len(study.extra) * math.prod(len(values) for values in study.grid.values())
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Study:
+    """What a study file says."""
+
+    path: Path
+    base: Path
+    grid: dict[str, list[Any]]
+    extra: list[dict[str, Any]]
+    names: dict[str, str]
+
+    def combinations(self) -> Iterator[dict[str, Any]]:
+        for table in self.extra:
+            for values in itertools.product(*self.grid.values()):
+                yield dict(zip(self.grid, values, strict=True)) | table
+
+
+def _read_tables(path: Path) -> _Study:
     tables = read_toml(path)
     for key in tables:
         if key not in _KEYS:
             _refuse(path, key, "an unknown key", "one of " + ", ".join(_KEYS))
-    base = tables.get("base")
+    base, grid = tables.get("base"), tables.get("grid", {})
     if not isinstance(base, str):
         _refuse(path, "base", describe(base), "the name of a case file")
-    names = tables.get("names", {})
-    cases = [
-        StudyCase(
-            name=_folder_name(overrides, names),
-            overrides=overrides,
-            case=Case.from_toml(_base_path(path, base), overrides),
-        )
-        for overrides in _combinations(path, tables)
-    ]
-    if len({case.name for case in cases}) < len(cases):
-        _refuse(path, "grid", "the same combination twice", "different values")
-    return cases
-
-
-def _base_path(study: Path, base: str) -> Path:
-    return STUDIES / "introductory.toml" if base == INTRODUCTORY else study.parent / base
-
-
-def _combinations(path: Path, tables: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    grid = _flat(tables.get("grid", {}))
+    if not isinstance(grid, dict):
+        _refuse(path, "grid", describe(grid), "a table [grid] of case keys to lists")
+    grid = _flat(grid)
     for key, values in grid.items():
         if not isinstance(values, list) or not values:
             _refuse(path, f"grid.{key}", describe(values), "a list of at least one value")
     extra = tables.get("case", [{}])
     if not isinstance(extra, list) or not all(isinstance(table, dict) for table in extra):
         _refuse(path, "case", describe(extra), "tables [[case]] of case keys")
-    for table in extra:
-        for values in itertools.product(*grid.values()):
-            yield dict(zip(grid, values, strict=True)) | _flat(table)
+    extra = [_flat(table) for table in extra]
+    keys = list(dict.fromkeys([*grid, *itertools.chain(*extra)]))
+    names = _short_names(path, tables.get("names", {}), keys)
+    return _Study(path=path, base=_base_path(path, base), grid=grid, extra=extra, names=names)
+
+
+def _short_names(path: Path, table: Any, keys: list[str]) -> dict[str, str]:
+    if not isinstance(table, dict):
+        _refuse(path, "names", describe(table), "a table [names] of case keys to short names")
+    names = _flat(table)
+    for key, name in names.items():
+        if key not in keys:
+            _refuse(
+                path, f"names.{key}", "a key that the study does not vary", suggestion(key, keys)
+            )
+        if not isinstance(name, str) or not name:
+            _refuse(path, f"names.{key}", describe(name), "a short name")
+    return names
+
+
+def _has_twins(overrides: list[dict[str, Any]]) -> bool:
+    """Whether two combinations are the same; 1 and 1.0 are, true and 1 are not."""
+    seen = {json.dumps(_comparable(values), sort_keys=True, default=str) for values in overrides}
+    return len(seen) < len(overrides)
+
+
+def _comparable(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _comparable(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_comparable(item) for item in value]
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def _from_here(study: _Study, overrides: Mapping[str, Any]) -> dict[str, Any]:
+    """Overrides in which the files that the study names are looked for beside it."""
+    return {
+        key: str(study.path.parent / value)
+        if isinstance(value, str) and key.split(".")[-1] in _FILE_KEYS
+        else value
+        for key, value in overrides.items()
+    }
+
+
+def _base_path(study: Path, base: str) -> Path:
+    return STUDIES / "introductory.toml" if base == INTRODUCTORY else study.parent / base
 
 
 def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -105,12 +171,27 @@ def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return flat
 
 
+def _folder_names(overrides: list[dict[str, Any]], names: Mapping[str, str]) -> list[str]:
+    """A name for each combination; where they would be the same, each gets a mark of its own."""
+    plain = [_folder_name(values, names) for values in overrides]
+    # Some file systems take capital and small letters for the same.
+    count = Counter(name.lower() for name in plain)
+    return [
+        name if count[name.lower()] == 1 else _marked(name, json.dumps(values, default=str))
+        for name, values in zip(plain, overrides, strict=True)
+    ]
+
+
 def _folder_name(overrides: Mapping[str, Any], names: Mapping[str, str]) -> str:
     words = [f"{names.get(key, key.split('.')[-1])}_{value}" for key, value in overrides.items()]
-    name = re.sub(r"[^A-Za-z0-9._-]+", "-", "__".join(words)) or "base"
-    if len(name) <= _LONGEST_NAME:
-        return name
-    return f"{name[: _LONGEST_NAME - 9]}-{hashlib.sha256(name.encode()).hexdigest()[:8]}"
+    # A name that begins with a letter or digit is neither hidden nor an option nor a formula.
+    name = re.sub(r"[^A-Za-z0-9._-]+", "-", "__".join(words)).lstrip("._-") or "base"
+    return name if len(name) <= _LONGEST_NAME else _marked(name, name)
+
+
+def _marked(name: str, content: str) -> str:
+    digest = hashlib.sha256(content.encode()).hexdigest()[:8]
+    return f"{name[: _LONGEST_NAME - 9]}-{digest}"
 
 
 def _refuse(path: Path, key: str, found: str, expected: str) -> NoReturn:

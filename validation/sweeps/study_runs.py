@@ -13,7 +13,7 @@ import pandas as pd
 from fem.case import Case
 from fem.case_errors import CaseError
 from fem.program_version import program_version
-from fem.results import Result, read_summary
+from fem.results import CASE_FILE, Result, missing_files, read_summary
 from validation.sweeps.study import StudyCase, read_study
 from validation.sweeps.sweep_case import FAILED, FINAL, SweepTask, forget
 from validation.sweeps.sweep_progress import SweepBar, SweepProgress
@@ -103,15 +103,14 @@ def holds(folder: Path, case: Case) -> bool:
     """Whether a folder holds the finished run of a case by this program, with fields."""
     try:
         summary = read_summary(folder)
-        found = Case.from_toml(folder / "case.toml")
+        found = Case.from_toml(folder / CASE_FILE)
+        complete = found.output.vtu and not missing_files(folder, found)
     except (CaseError, ValueError):
         # Written by a version with other keys, or damaged: it has to be run again.
         return False
     if summary["status"] not in FINAL or summary.get("program_version") != program_version():
         return False
-    if not any(folder.glob("block_*.vtu")):
-        return False
-    return found == case.with_overrides(
+    return complete and found == case.with_overrides(
         {f"output.{key}": value for key, value in found.to_dict()["output"].items()}
     )
 

@@ -21,10 +21,11 @@ from typing import Any
 from fem.atomic_files import write_text
 from fem.case import Case
 from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
+from fem.machine_faults import cause, one_line
 from fem.outcome import INTERRUPTED, NOT_CONVERGED, OK
 from fem.output_folder import output_folder
 from fem.program_version import program_version
-from fem.results import CASE_FILE, FIGURES_FOLDER, RUN_FILES, read_summary
+from fem.results import CASE_FILE, FIGURES_FOLDER, RUN_FILES, missing_files, read_summary
 from fem.resume import gone_on_with
 from fem.simulate import simulate
 
@@ -114,10 +115,11 @@ def finished_outcome(task: SweepTask) -> CaseOutcome | None:
         marker = json.loads((folder / MARKER).read_text(encoding="utf-8"))
         same = (marker["case_hash"], marker["version"]) == (task.case.hash(), task.version)
         summary = read_summary(folder)
+        complete = not missing_files(folder, task.case)
         timing = {str(key): float(value) for key, value in marker["timing"].items()}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
-    if not same or summary["status"] not in FINAL:
+    if not (same and complete and summary["status"] in FINAL):
         return None
     return CaseOutcome(name=task.name, summary=summary, timing=timing)
 
@@ -141,7 +143,12 @@ def _own_folder(task: SweepTask) -> Iterator[None]:
     if not _sees_the_sweep(folder):
         raise RuntimeError(f"the worker does not see {task.folder}: it needs a shared disk")
     # A worker that was given up may need a moment to notice it.
-    with output_folder(folder, files=RUN_FILES, folders=[FIGURES_FOLDER], patience_s=_GIVEN_UP_S):
+    with output_folder(
+        folder,
+        files=(*RUN_FILES, CHECKPOINT_FILE),
+        folders=[FIGURES_FOLDER],
+        patience_s=_GIVEN_UP_S,
+    ):
         yield
 
 
@@ -176,12 +183,13 @@ def _mark(task: SweepTask, timing: dict[str, float]) -> None:
 
 
 def _failure(task: SweepTask, error: Exception) -> CaseOutcome:
-    reason = " ".join(f"{type(error).__name__}: {error}".split())
+    known = one_line(error) if isinstance(error, OSError | MemoryError) else ""
+    reason = known or " ".join(f"{type(error).__name__}: {error}".split())
     folder = Path(task.folder)
     try:
         if _sees_the_sweep(folder):
             write_text(folder / CASE_FILE, task.case.to_toml())
             write_text(folder / FAILURE_LOG, traceback.format_exc())
     except OSError as unwritable:
-        reason += f" (and its folder cannot be written: {unwritable})"
+        reason += f" (and its folder cannot be written: {cause(unwritable)})"
     return CaseOutcome(name=task.name, summary={"status": FAILED, "reason": reason})
