@@ -118,7 +118,8 @@ def _faults_of(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        if error.filename is None or UNFINISHED in os.fsdecode(error.filename):
+        nameless = error.filename is None and error.errno is not None
+        if nameless or UNFINISHED in os.fsdecode(error.filename or ""):
             error.filename, error.filename2 = str(path), None
         raise
 

@@ -6,6 +6,7 @@ version wrote it and which case it belongs to; what does not fit is refused, nev
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import time
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 from fem.atomic_files import replacing
 from fem.case import Case
 from fem.case_errors import CaseError, describe
+from fem.machine_faults import cause
 from fem.packing import PackingError, pack, unpack
 from fem.program_version import program_version
 
@@ -29,7 +31,7 @@ Array = NDArray[Any]
 #: Name of the file in the folder of a run.
 CHECKPOINT_FILE = "checkpoint.npz"
 #: Version of the layout of the file.
-FORMAT = 1
+FORMAT = 2
 #: Largest share of the run time that may go into checkpoints; longer intervals keep to it.
 COST_SHARE = 0.01
 _ABOUT = "about"
@@ -75,7 +77,7 @@ class Checkpoint:
             self.written += 1
             self.problem = ""
         except OSError as error:
-            self.problem = f"no checkpoint since then: {error}"
+            self.problem = f"no checkpoint since then: {cause(error)}"
         self.last = self.clock()
         cost = self.last - start
         self.seconds += cost
@@ -100,6 +102,7 @@ def write_checkpoint(path: str | Path, case: Case, content: Any) -> None:
     tree, arrays = pack(content)
     about = {
         "format": FORMAT,
+        "digest": _digest(tree, arrays),
         "program": program_version(),
         "case_hash": case.hash(),
         "case": case.to_dict(),
@@ -134,7 +137,19 @@ def check_checkpoint(path: str | Path, case: Case) -> tuple[dict[str, Any], dict
     about, arrays = _contents(path)
     _check_version(path, about)
     _check_case(path, about, case)
+    if about.get("digest") != _digest(about.get("content"), arrays):
+        found = "arrays or numbers that were changed after it was written"
+        raise _refused(path, "content", found, "a checkpoint as the program wrote it")
     return about, arrays
+
+
+def _digest(tree: Any, arrays: Mapping[str, Array]) -> str:
+    """Of everything that is kept: what was changed by hand afterwards is not gone on with."""
+    digest = hashlib.sha256(json.dumps(tree, sort_keys=True).encode())
+    for name, array in sorted(arrays.items()):
+        digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
 
 
 def remove_checkpoint(path: str | Path) -> None:

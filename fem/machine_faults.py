@@ -23,7 +23,7 @@ def cause(error: OSError) -> str:
     if isinstance(error, FileNotFoundError) and not _current_folder_exists():
         return "the current folder is gone"
     known = _WORDS.get(error.errno or 0)
-    return known or (error.strerror or str(error) or type(error).__name__).lower()
+    return known or (error.strerror or "").lower() or str(error) or type(error).__name__
 
 
 def one_line(error: OSError | MemoryError) -> str:

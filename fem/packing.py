@@ -101,7 +101,7 @@ def _unpacked(hint: Any, tree: Any, arrays: Mapping[str, Array], where: str) -> 
     if origin is np.ndarray or hint is np.ndarray:
         if not isinstance(tree, str) or tree not in arrays:
             raise PackingError(f"{where} is not an array")
-        return arrays[tree]
+        return _checked(arrays[tree], hint, where)
     if origin in (list, tuple):
         if not isinstance(tree, list):
             raise PackingError(f"{where} is not a list")
@@ -118,6 +118,15 @@ def _unpacked(hint: Any, tree: Any, arrays: Mapping[str, Array], where: str) -> 
     if hint not in (bool, int, float, str) or type(tree) is not hint:
         raise PackingError(f"{where} is a {type(tree).__name__}")
     return tree
+
+
+def _checked(array: Array, hint: Any, where: str) -> Array:
+    """The array, if it holds the kind of numbers that the hint says."""
+    *_, dtype = typing.get_args(hint) or (Any,)
+    (wanted,) = typing.get_args(dtype) or (Any,)
+    if wanted is not Any and not np.issubdtype(array.dtype, wanted):
+        raise PackingError(f"{where} is an array of {array.dtype}")
+    return array
 
 
 def _dataclass(kind: Any, tree: Any, arrays: Mapping[str, Array], where: str) -> Any:

@@ -147,6 +147,11 @@ def write_summary(directory: str | Path, summary: Mapping[str, Any]) -> None:
     (directory / SUMMARY_JSON).write_text(text + "\n", encoding="utf-8")
 
 
+_NUMBER: tuple[Any, str] = (int | float | None, "a number")
+#: What the entries of a summary are that are no numbers.
+_KINDS: dict[str, tuple[Any, str]] = {"status": (str, "a word"), "warnings": (list, "an array")}
+
+
 def read_summary(directory: str | Path) -> dict[str, Any]:
     """Read `summary.json`; a value that could not be computed is None.
 
@@ -164,11 +169,9 @@ def read_summary(directory: str | Path) -> dict[str, Any]:
         raise ValueError(f"{path} holds {describe(summary)}, not the results of a run")
     in_order(list(summary), SUMMARY, str(path))
     for key in SUMMARY:
-        value, text = summary[key], key == "status"
-        number = value is None or (isinstance(value, int | float) and not isinstance(value, bool))
-        if not (isinstance(value, str) if text else number):
-            expected = "a word" if text else "a number"
-            raise ValueError(f"{path}: {key} is {describe(value)}, not {expected}")
+        kind, words = _KINDS.get(key, _NUMBER)
+        if not isinstance(summary[key], kind) or isinstance(summary[key], bool):
+            raise ValueError(f"{path}: {key} is {describe(summary[key])}, not {words}")
     return summary
 
 

@@ -86,8 +86,8 @@ def test_one_of_another_program_version_is_refused(path, monkeypatch):
 
 
 def test_one_of_another_format_is_refused(path, monkeypatch):
-    monkeypatch.setattr(fem.checkpoint, "FORMAT", 2)
-    assert refusal(path).startswith("format: found 1, expected 2")
+    monkeypatch.setattr(fem.checkpoint, "FORMAT", 9)
+    assert refusal(path).startswith("format: found 2, expected 9")
 
 
 def test_one_with_other_content_is_refused(path):
