@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fem.balance import balance_error, share
 from fem.coupling import AcceptedStep
 from fem.mechanics import BlockMechanics, platen_displacement
 
@@ -27,6 +28,8 @@ class EnergyAudit:
         Work of the platen, friction (on the road and on itself), Kelvin-Voigt dissipation.
     strain_energy, kinetic : float
         Stored now.
+    created : float
+        Energy that friction or viscosity gave in steps in which they should have taken it.
     capped, dissipated : float
         Friction work where the heat partition was capped, and all of it (end-of-step forces).
     """
@@ -36,6 +39,7 @@ class EnergyAudit:
     viscous: float = 0.0
     strain_energy: float = 0.0
     kinetic: float = 0.0
+    created: float = 0.0
     capped: float = 0.0
     dissipated: float = 0.0
     platen_force_x: float = 0.0
@@ -43,19 +47,23 @@ class EnergyAudit:
 
     @property
     def error(self) -> float:
-        """Work in minus stored, dissipated and kinetic energy, relative to the work in [-]."""
-        found = self.strain_energy + self.friction + self.viscous + self.kinetic
-        return abs(self.work_in - found) / self.work_in if self.work_in > 0.0 else 0.0
+        """Work in minus stored, dissipated and kinetic energy, and what was created [-].
+
+        Relative to the energy turned over, so that it means something whatever its sign: friction
+        that drives the block instead of braking it balances, but creates all of the energy.
+        """
+        found = (self.strain_energy, self.friction, self.viscous, self.kinetic)
+        return balance_error(self.work_in, *found, created=self.created)
 
     @property
     def regularisation_share(self) -> float:
         """Kelvin-Voigt dissipation relative to the work in [-]."""
-        return self.viscous / self.work_in if self.work_in > 0.0 else 0.0
+        return share(self.viscous, self.work_in)
 
     @property
     def capped_share(self) -> float:
         """Share of the friction work whose heat partition was capped [-]."""
-        return self.capped / self.dissipated if self.dissipated > 0.0 else 0.0
+        return share(self.capped, self.dissipated)
 
 
 def audited(audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics) -> EnergyAudit:
@@ -72,13 +80,16 @@ def audited(audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics) -
     # A node that has just closed moved with it only for part of the step; its force counts half.
     friction = -0.5 * float(np.sum((before.contact.shear + after.contact.shear) * slip))
     kinetic = 0.5 * float(np.sum(mechanics.mass[:, None] * after.mechanics.velocity**2))
+    friction += step.self_friction
+    viscous = viscous_work(step, mechanics)
     dissipated = step.power * step.target.dt
     return EnergyAudit(
         work_in=audit.work_in + work,
-        friction=audit.friction + friction + step.self_friction,
-        viscous=audit.viscous + viscous_work(step, mechanics),
+        friction=audit.friction + friction,
+        viscous=audit.viscous + viscous,
         strain_energy=mechanics.elements.strain_energy(step.evaluation.elements.kinematics),
         kinetic=kinetic,
+        created=audit.created + max(-friction, 0.0) + max(-viscous, 0.0),
         capped=audit.capped + float(np.sum(dissipated[step.capped])),
         dissipated=audit.dissipated + float(np.sum(dissipated)),
         platen_force_x=force_x,

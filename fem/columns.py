@@ -69,6 +69,7 @@ SUMMARY = (
     "heat_error",
     "regularisation_share",
     "capped_heat_share",
+    "warnings",
 )
 
 

@@ -107,6 +107,12 @@ class BlockMesh:
         return float(np.ptp(self.points[:, 1]))
 
     @property
+    def bottom_cell_height(self) -> float:
+        """Largest height of the cells at the bottom [mm]."""
+        y = self.points[self.grid[:, :2], 1]
+        return float(np.max(y[:, 1] - y[:, 0]))
+
+    @property
     def bottom_coordinate(self) -> FloatArray:
         """Distance of the bottom nodes from the trailing corner [mm]."""
         return np.abs(self.points[self.bottom, 0] - self.points[self.bottom[0], 0])

@@ -142,9 +142,15 @@ def write_summary(directory: str | Path, summary: Mapping[str, Any]) -> None:
     """Write `summary.json` and the same as the one row of `summary.csv`."""
     directory = Path(directory)
     clean = {key: plain(value) for key, value in summary.items()}
+    row = {**clean, "warnings": joined(clean["warnings"])}
     text = json.dumps(clean, indent=2, allow_nan=False, ensure_ascii=False)
-    pd.DataFrame([clean]).to_csv(directory / SUMMARY_CSV, index=False, lineterminator="\n")
+    pd.DataFrame([row]).to_csv(directory / SUMMARY_CSV, index=False, lineterminator="\n")
     (directory / SUMMARY_JSON).write_text(text + "\n", encoding="utf-8")
+
+
+def joined(warnings: Sequence[str]) -> str:
+    """The warnings of a summary in one cell of a table."""
+    return " | ".join(warnings)
 
 
 _NUMBER: tuple[Any, str] = (int | float | None, "a number")

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from fem.balance import balance_error, share
 from fem.case import Case
 from fem.checkpoint import Checkpoint, notes
 from fem.heat import HeatModel
@@ -23,8 +24,17 @@ from fem.recorder import temperature_columns
 from fem.results import Result
 from fem.rigid_block import RigidSliding, RigidStep, slide_rigid_block
 from fem.run_point import Records, RigidPoint, RigidRecord, columns, snapshots_due
-from fem.run_summary import largest, last_values, sliding_means
+from fem.run_summary import (
+    closing_lines,
+    heat_error,
+    lag_share,
+    largest,
+    last_values,
+    layer_errors,
+    sliding_means,
+)
 from fem.snapshot import BlockGeometry, Snapshot
+from fem.trust import judged
 
 
 class _RigidRun:
@@ -44,7 +54,7 @@ class _RigidRun:
         self.heat = self.model.initial_state()
         self.rows: list[dict[str, Any]] = []
         self.snapshots: list[Snapshot] = []
-        self.work = self.capped = self.time = self.distance = self.position = 0.0
+        self.work = self.created = self.capped = self.time = self.distance = self.position = 0.0
         self._due = snapshots_due(case)
         self.log = [f"rigid {case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
                     f"{len(self.mesh.cells)} elements", case.friction.described()]  # fmt: skip
@@ -58,7 +68,7 @@ class _RigidRun:
     def _point(self) -> RigidPoint:
         return RigidPoint(
             steps=len(self.rows), heat=self.heat, time=self.time, distance=self.distance,
-            position=self.position, work=self.work, capped=self.capped,
+            position=self.position, work=self.work, created=self.created, capped=self.capped,
             snapshots=len(self.snapshots),
         )  # fmt: skip
 
@@ -76,7 +86,7 @@ class _RigidRun:
         point, records = kept.point, kept.records
         self.point, self.heat = point, point.heat
         self.time, self.distance, self.position = point.time, point.distance, point.position
-        self.work, self.capped = point.work, point.capped
+        self.work, self.created, self.capped = point.work, point.created, point.capped
         self.rows, self.snapshots = records.rows, records.snapshots
         self._due = snapshots_due(self.case, self.distance)
         self.log = [*records.log, f"resumed after {point.steps} steps, {self.distance:.6g} mm"]
@@ -96,6 +106,7 @@ class _RigidRun:
     def _accept(self, step: RigidStep) -> None:
         self.heat, self.time, self.position = step.heat, step.time_s, step.position_mm
         self.work += step.dissipation
+        self.created += max(-step.dissipation, 0.0)
         self.capped += step.capped_dissipation
         end = self.case.loading.distance_mm
         self.distance = end if np.isclose(step.distance_mm, end) else step.distance_mm
@@ -200,27 +211,30 @@ class _RigidRun:
 
     def summary(self, outcome: Outcome) -> dict[str, Any]:
         """Scalars of the run."""
-        history, made = pd.DataFrame(self.rows), self.heat.generated
+        history = pd.DataFrame(self.rows)
         summary: dict[str, Any] = {"status": outcome.status}
         if outcome.reason:
             summary |= {"reason": outcome.reason, "advice": outcome.advice}
         summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
         summary |= sliding_means(history, self.sliding.velocity)
-        return summary | {
+        summary |= {
             "elements": len(self.mesh.cells),
             "dofs": len(self.mesh.points),
             "steps": len(history),
             "newton_iterations": 0,
             "wall_s": time.perf_counter() - self.started,
-            "energy_error": 0.0,
-            "heat_error": abs(self.heat.imbalance) / made if made > 0.0 else 0.0,
+            "energy_error": balance_error(self.work, self.work, created=self.created),
+            "heat_error": heat_error(self.heat),
             "regularisation_share": 0.0,
-            "capped_heat_share": self.capped / self.work if self.work > 0.0 else 0.0,
+            "capped_heat_share": share(self.capped, self.work),
             "rejected_steps": 0,
             "friction_lag_error": largest(history, "friction_lag_error"),
+            "friction_lag_share": lag_share(history),
+            **layer_errors(history, self.model),
             "min_J": 1.0,
             "program_version": program_version(),
         }
+        return judged(summary)
 
 
 def simulate_rigid(
@@ -256,12 +270,13 @@ def simulate_rigid(
         checkpoint.keep(run.kept, now=True)
     if not run.snapshots or run.snapshots[-1].sliding_distance_mm < run.distance:
         run.snapshot()
+    summary = run.summary(outcome)
     return Result.from_rows(
         case,
         run.geometry,
         run.rows,
         run.surface(),
-        run.summary(outcome),
+        summary,
         run.snapshots,
-        log=[*run.log, *notes(checkpoint), f"status: {outcome.status} {outcome.reason}".rstrip()],
+        log=[*run.log, *notes(checkpoint), *closing_lines(outcome, summary["warnings"])],
     )

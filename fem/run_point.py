@@ -66,8 +66,9 @@ class RigidPoint:
         Heat of block and road.
     time, distance, position : float
         Time [s], sliding distance and signed displacement of the platen [mm].
-    work, capped : float
-        Friction work, and the part of it whose heat partition was capped [mJ/mm].
+    work, created, capped : float
+        Friction work, that of steps in which it was negative, and the part of it whose heat
+        partition was capped [mJ/mm].
     snapshots : int
         How many snapshots there were.
     """
@@ -78,6 +79,7 @@ class RigidPoint:
     distance: float
     position: float
     work: float
+    created: float
     capped: float
     snapshots: int
 

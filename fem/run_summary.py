@@ -5,6 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from fem.balance import balance_error, share
+from fem.heat import HeatModel, HeatState
+from fem.layer_resolution import layer_error
+from fem.outcome import Outcome
+
 
 def last_values(history: pd.DataFrame, columns: tuple[str, ...]) -> dict[str, float]:
     """Values of the last row; NaN where there is none."""
@@ -46,7 +51,7 @@ def steady_share(history: pd.DataFrame, part: str, whole: str) -> float:
     first = history[history["sliding_distance_mm"] < half].iloc[-1:]
     span = pd.concat([first, late])[[part, whole]]
     change = span.iloc[-1] - span.iloc[0]
-    return float(change[part] / change[whole]) if change[whole] > 0.0 else 0.0
+    return share(float(change[part]), float(change[whole]))
 
 
 def steady_shares(history: pd.DataFrame) -> dict[str, float]:
@@ -62,3 +67,52 @@ def steady_shares(history: pd.DataFrame) -> dict[str, float]:
         "regularisation_share": steady_share(history, "viscous_dissipation_mJ_per_mm", work),
         "storage_share": steady_share(history, "strain_energy_mJ_per_mm", work),
     }
+
+
+def lag_share(history: pd.DataFrame) -> float:
+    """Share of the friction work that one more pass over the coefficient would change [-]."""
+    if history.empty:
+        return float("nan")
+    work = history["friction_dissipation_mJ_per_mm"].diff().abs().fillna(0.0)
+    return share(float((work * history["friction_lag_error"]).sum()), float(work.sum()))
+
+
+def heat_error(heat: HeatState) -> float:
+    """Imbalance of the heat relative to what was turned over [-]."""
+    return balance_error(heat.generated, heat.in_block, heat.in_road, heat.radiated, heat.left)
+
+
+def layer_errors(history: pd.DataFrame, heat: HeatModel) -> dict[str, float]:
+    """How well the heated layers are resolved, by the rise of surface temperatures they miss [-].
+
+    The block's surface is heated during all of the slide, a point of the road while the contact
+    passes over it. Either is judged by its cells and by the sub-steps of the heat.
+    """
+    slide = history[history["sliding_distance_mm"] > 0.0] if len(history) else history
+    if slide.empty:
+        return {"heat_layer_error": 0.0, "road_layer_error": 0.0}
+    before = history["time_s"].shift(fill_value=0.0)[slide.index[0]]
+    time, distance = slide["time_s"].iloc[-1] - before, slide["sliding_distance_mm"].iloc[-1]
+    step = _longest_heat_step(slide["sliding_distance_mm"], heat.heat_step_mm)
+    passed = min(float(slide["contact_length_mm"].iloc[-1]), distance)
+    block, road = heat.block.rubber, heat.road
+    return {
+        "heat_layer_error": layer_error(
+            heat.mesh.bottom_cell_height, block.diffusivity, time, distance / step
+        ),
+        "road_layer_error": layer_error(
+            road.depths[1], road.road.diffusivity, time * passed / distance, passed / step
+        ),
+    }
+
+
+def _longest_heat_step(distance: pd.Series, heat_step_mm: float) -> float:
+    """Longest sub-step of the heat [mm] in the second half of the slide."""
+    steps = distance.diff().fillna(distance)[distance > 0.5 * distance.iloc[-1]].to_numpy()
+    return float(np.max(steps / np.ceil(steps / heat_step_mm - 1e-9)))
+
+
+def closing_lines(outcome: Outcome, warnings: list[str]) -> list[str]:
+    """Last lines of the log: the warnings, one each, and how the run ended."""
+    status = f"status: {outcome.status} {outcome.reason}".rstrip()
+    return [*(f"warning: {warning}" for warning in warnings), status]

@@ -29,8 +29,18 @@ from fem.regularisation import viscosity
 from fem.results import Result
 from fem.rigid_run import simulate_rigid
 from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
-from fem.run_summary import largest, last_values, sliding_means, steady_shares
+from fem.run_summary import (
+    closing_lines,
+    heat_error,
+    lag_share,
+    largest,
+    last_values,
+    layer_errors,
+    sliding_means,
+    steady_shares,
+)
 from fem.step_control import StepController, landed
+from fem.trust import judged
 
 #: Contact modulus of the block with itself over the contact's reference modulus: the bulk modulus,
 #: or 100 initial shear moduli for more compressible rubber, whose crease stiffens just as much. A
@@ -274,7 +284,7 @@ def simulate(
         recorder.surface(run.state),
         summary,
         recorder.snapshots,
-        log=[*run.log, *notes(kept_in), f"status: {outcome.status} {outcome.reason}".rstrip()],
+        log=[*run.log, *notes(kept_in), *closing_lines(outcome, summary["warnings"])],
     )
 
 
@@ -287,7 +297,6 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         summary |= {"reason": outcome.reason, "advice": outcome.advice}
     summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
     summary |= sliding_means(history, case.loading.velocity_mm_per_s)
-    made = heat.generated
     summary |= {
         "elements": len(mechanics.mesh.cells),
         "dofs": mechanics.pattern.size + heat.T.size,
@@ -295,18 +304,20 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "newton_iterations": run.iterations,
         "wall_s": run.wall,
         "energy_error": run.audit.error,
-        "heat_error": abs(heat.imbalance) / made if made > 0.0 else 0.0,
+        "heat_error": heat_error(heat),
         **steady_shares(history),
         "capped_heat_share": run.audit.capped_share,
         "rejected_steps": run.rejected,
         "regularisation_share_with_onset": run.audit.regularisation_share,
         "friction_lag_error": largest(history, "friction_lag_error"),
+        "friction_lag_share": lag_share(history),
         "largest_self_penetration": largest(history, "self_contact_penetration"),
+        **layer_errors(history, run.model.heat),
         "min_J": run.recorder.smallest_J,
         "solver_s": run.solver_seconds,
         "program_version": program_version(),
     }
-    return summary
+    return judged(summary)
 
 
 __all__ = ["CoupledState", "Progress", "coupled_model", "mesh_of", "simulate"]

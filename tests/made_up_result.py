@@ -114,6 +114,7 @@ def made_up_summary() -> dict[str, object]:
         "heat_error": 1e-12,
         "regularisation_share": 0.01,
         "capped_heat_share": 0.1,
+        "warnings": [],
         "program_version": program_version(),
     }
 

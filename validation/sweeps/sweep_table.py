@@ -11,7 +11,7 @@ from typing import Any
 
 from fem.atomic_files import write_text
 from fem.columns import SUMMARY
-from fem.results import SUMMARY_CSV
+from fem.results import SUMMARY_CSV, joined
 from validation.sweeps.study import StudyCase
 from validation.sweeps.sweep_case import CaseOutcome, SweepTask
 
@@ -49,6 +49,7 @@ class SweepTable:
             **self.settings[task.name],
             "case": task.name,
             **{key: value for key, value in summary.items() if key not in _TIMES},
+            "warnings": joined(summary.get("warnings", ())),
             "case_hash": task.case.hash(),
             "program_version": task.version,
         }
