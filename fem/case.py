@@ -9,13 +9,14 @@ from __future__ import annotations
 import copy
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
-from fem.case_base import Section, refuse
+from fem.case_base import Section, refuse, refuse_finding
 from fem.case_friction import Friction
 from fem.case_heat import Heat
 from fem.case_reading import Source, apply_overrides, read_toml
@@ -23,9 +24,12 @@ from fem.case_rubber import Rubber
 from fem.case_sections import Block, Loading, Output, Road, Solver
 from fem.case_validation import case_error, refuse_unknown_keys
 from fem.case_writing import section_lines
+from materials.plausible import FRICTION, Finding, judge
 
 #: Mean pressure over initial shear modulus beyond which no rubber block keeps its shape [-].
 _HARDEST_PRESS = 10.0
+#: Pressure at the leading corner over the mean pressure that a friction law has to bear [-].
+_PEAK_PRESSURE = 100.0
 
 
 class Case(Section):
@@ -58,6 +62,7 @@ class Case(Section):
                 str(pressure),
                 f"at most {_HARDEST_PRESS * modulus:.4g} N/mm^2, ten times the shear modulus",
             )
+        self._refuse_negative_friction()
         pole = self.friction.pole_C
         if self.friction.wlf and self.heat.ambient_C <= pole:
             refuse(
@@ -66,6 +71,44 @@ class Case(Section):
                 f"above {pole:.6g}, where the WLF shift of [friction] ends",
             )
         return self
+
+    def _refuse_negative_friction(self) -> None:
+        """Friction that pushes the block, or is infinite, at a pressure or speed of the run."""
+        law, loading = self.friction.plain_law(), self.loading
+        pressure, speed = loading.mean_pressure_N_per_mm2, abs(loading.velocity_mm_per_s)
+        p = np.geomspace(law.p_min, max(_PEAK_PRESSURE * pressure, 2.0 * law.p_min), 60)
+        v = np.geomspace(law.v_min, max(speed, 2.0 * law.v_min), 20)[:, None]
+        with np.errstate(all="ignore"):
+            mu = law.coefficient(p, v)
+        wrong = np.argwhere(~(np.isfinite(mu) & (mu >= 0.0)))
+        if wrong.size:
+            i, j = wrong[0]
+            found = f"{self.friction.law} with the coefficient {mu[i, j]:.3g} at "
+            found += f"{p[j]:.3g} N/mm^2 and {v[i, 0]:.3g} mm/s"
+            expected = "a coefficient of 0 or more at every pressure and speed of the run"
+            refuse("friction.law", found, f"{expected} (to {p[-1]:.3g} N/mm^2)")
+        finding = self._friction()
+        if finding is not None and finding.impossible:
+            found = f"{self.friction.law} with the coefficient {finding.value:.3g} at the mean"
+            refuse_finding("friction.law", f"{found} pressure", finding)
+
+    def _friction(self) -> Finding | None:
+        """Judgement of the coefficient at the mean pressure and the velocity of the slide."""
+        loading, law = self.loading, self.friction.plain_law()
+        mu = law.coefficient(loading.mean_pressure_N_per_mm2, loading.velocity_mm_per_s)
+        return judge(mu, FRICTION)
+
+    def unusual(self) -> Iterator[tuple[str, Finding]]:
+        """Keys whose numbers are possible but unusual, with what is unusual about them."""
+        yield from super().unusual()
+        finding = self._friction()
+        if finding is not None and self.friction.law != "coulomb":
+            yield "friction.law", finding
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is unusual about the case, a sentence each that begins with the key."""
+        return tuple(f"{key}: {finding.sentence}" for key, finding in self.unusual())
 
     @property
     def source(self) -> str:

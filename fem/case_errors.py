@@ -46,7 +46,9 @@ def describe(value: Any) -> str:
     if isinstance(value, float):
         return "nan" if math.isnan(value) else repr(value)
     if isinstance(value, int):
-        return _shortened(str(value))
+        # Python refuses to write out whole numbers of more than 4300 digits.
+        digits = int(abs(value).bit_length() * math.log10(2.0)) + 1
+        return f"a whole number of {digits} digits" if digits > _LONGEST else str(value)
     if isinstance(value, str):
         return _shortened(json.dumps(value, ensure_ascii=False))
     if isinstance(value, dict):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
@@ -14,9 +14,28 @@ from contact.friction import (
     HuemerFriction,
     ThermalFriction,
 )
-from fem.case_base import Celsius, Finite, NotNegative, Positive, Section, refuse, refuse_sentence
+from fem.case_base import (
+    Celsius,
+    Constant,
+    Exponent,
+    Factor,
+    NotNegative,
+    Positive,
+    Section,
+    Within,
+    refuse,
+    refuse_sentence,
+)
 from fem.case_errors import describe
+from materials.plausible import FRICTION, TEMPERATURE, WLF_D1, WLF_D2
 from materials.wlf import WLF
+
+_Mu = Annotated[NotNegative | None, Within(FRICTION)]
+_D1 = Annotated[Positive, Within(WLF_D1)]
+_D2 = Annotated[Positive, Within(WLF_D2)]
+_Reference = Annotated[Celsius, Within(TEMPERATURE)]
+_PressureFloor = Annotated[Positive, Field(ge=1e-9, le=10.0)]
+_SpeedFloor = Annotated[Positive, Field(ge=1e-9, le=1e5)]
 
 LAW_CLASSES: dict[str, type[FrictionLaw]] = {
     "huemer": HuemerFriction,
@@ -47,28 +66,30 @@ class Friction(Section):
     law: Literal["huemer", "exponential", "coulomb"] = Field(
         "huemer", description='"huemer", eq. (6); "exponential", eq. (5); "coulomb"'
     )
-    alpha: Finite | None = Field(None, description="Huemer, factor of p^(n-1)")
-    beta: Finite | None = Field(None, description="Huemer, pressure-independent part [-]")
-    n: Finite | None = Field(None, description="Huemer, exponent of the pressure plus one [-]")
-    inverse_m: Finite | None = Field(None, description="Huemer, 1/m, exponent of the velocity [-]")
-    a: Finite | None = Field(None, description="Huemer, denominator, constant [-]")
-    b: Finite | None = Field(None, description="Huemer, denominator, factor of v^(-1/m)")
-    c: Finite | None = Field(None, description="Huemer, denominator, factor of v^(-2/m)")
-    A: Positive | None = Field(None, description="exponential law, factor")
-    B: Finite | None = Field(None, description="exponential law, exponent of the pressure [-]")
-    C: Finite | None = Field(None, description="exponential law, exponent of the velocity [-]")
-    mu: NotNegative | None = Field(None, description="Coulomb's constant friction coefficient [-]")
+    alpha: Constant | None = Field(None, description="Huemer, factor of p^(n-1)")
+    beta: Constant | None = Field(None, description="Huemer, pressure-independent part [-]")
+    n: Exponent | None = Field(None, description="Huemer, exponent of the pressure plus one [-]")
+    inverse_m: Exponent | None = Field(
+        None, description="Huemer, 1/m, exponent of the velocity [-]"
+    )
+    a: Constant | None = Field(None, description="Huemer, denominator, constant [-]")
+    b: Constant | None = Field(None, description="Huemer, denominator, factor of v^(-1/m)")
+    c: Constant | None = Field(None, description="Huemer, denominator, factor of v^(-2/m)")
+    A: Factor | None = Field(None, description="exponential law, factor")
+    B: Exponent | None = Field(None, description="exponential law, exponent of the pressure [-]")
+    C: Exponent | None = Field(None, description="exponential law, exponent of the velocity [-]")
+    mu: _Mu = Field(None, description="Coulomb's constant friction coefficient [-]")
     wlf: bool = Field(True, description="shift the velocity with the surface temperature, eq. (7)")
-    d1: Positive = Field(43.1, description="WLF constant [-]")
-    d2_K: Positive = Field(509.4, description="WLF constant [K]")
-    T_ref_C: Celsius = Field(20.0, description="temperature the law was measured at [deg C]")
-    wlf_T_ref_C: Celsius | None = Field(
+    d1: _D1 = Field(43.1, description="WLF constant [-]")
+    d2_K: _D2 = Field(509.4, description="WLF constant [K]")
+    T_ref_C: _Reference = Field(20.0, description="temperature the law was measured at [deg C]")
+    wlf_T_ref_C: Annotated[Celsius | None, Within(TEMPERATURE)] = Field(
         None, description="temperature d1 and d2_K refer to [deg C]; T_ref_C where left out"
     )
-    p_min_N_per_mm2: Positive = Field(1e-3, description="pressure floor of the law [N/mm^2]")
-    v_min_mm_per_s: Positive = Field(1.0, description="velocity floor of the law [mm/s]")
+    p_min_N_per_mm2: _PressureFloor = Field(1e-3, description="pressure floor of the law [N/mm^2]")
+    v_min_mm_per_s: _SpeedFloor = Field(1.0, description="velocity floor of the law [mm/s]")
 
-    rubber_on_rubber_mu: NotNegative = Field(
+    rubber_on_rubber_mu: Annotated[NotNegative, Within(FRICTION)] = Field(
         1.0, description="Coulomb's coefficient where the block touches itself [-]"
     )
 

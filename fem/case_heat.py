@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
@@ -10,15 +10,24 @@ from contact.conductance import GapConductance
 from contact.partition import HeatPartition
 from fem.case_base import (
     Celsius,
-    Finite,
+    Exponent,
     NotNegative,
+    NotNegativeExponent,
     Positive,
     Section,
     Share,
+    Within,
     refuse,
     refuse_sentence,
 )
 from fem.case_errors import describe
+from materials.plausible import CONDUCTANCE, PRESSURE, START_TEMPERATURE
+
+_Start = Annotated[Celsius, Within(START_TEMPERATURE)]
+_Conductance = Annotated[NotNegative, Within(CONDUCTANCE)]
+_Pressure = Annotated[Positive, Within(PRESSURE)]
+_Velocity = Annotated[Positive, Field(ge=1e-9, le=1e9)]
+_Prefactor = Annotated[NotNegative, Field(le=100.0)]
 
 
 class Partition(Section):
@@ -27,8 +36,8 @@ class Partition(Section):
     law: Literal["power", "constant"] = Field(
         "power", description='"power": prefactor p^exponent, eq. (14); "constant": the prefactor'
     )
-    prefactor: NotNegative = Field(0.3146, description="kappa at 1 N/mm^2 [-]")
-    exponent: Finite = Field(-0.6833, description="exponent of the pressure [-]")
+    prefactor: _Prefactor = Field(0.3146, description="kappa at 1 N/mm^2 [-]")
+    exponent: Exponent = Field(-0.6833, description="exponent of the pressure [-]")
     cap: Share = Field(1.0, description="largest share that may become heat [-]")
 
     @model_validator(mode="before")
@@ -45,21 +54,23 @@ class Heat(Section):
     """Heat made at the contact, passed to the road and radiated."""
 
     partition: Partition = Field(Partition(), description="share of friction power made heat")
-    conductance_W_per_m2K: NotNegative = Field(
+    conductance_W_per_m2K: _Conductance = Field(
         1600.0, description="gap conductance at pressure_N_per_mm2 [W/(m^2 K)]"
     )
-    pressure_N_per_mm2: Positive = Field(
+    pressure_N_per_mm2: _Pressure = Field(
         0.3, description="pressure the conductance was measured at [N/mm^2]"
     )
-    exponent: NotNegative = Field(0.94, description="conductance over pressure, eq. (11) [-]")
-    modulus_exponent: NotNegative = Field(
+    exponent: NotNegativeExponent = Field(
+        0.94, description="conductance over pressure, eq. (11) [-]"
+    )
+    modulus_exponent: NotNegativeExponent = Field(
         0.0, description="exponent m of E1(v)/E1(0) = (1 + v/v_ref)^m; the paper gives none [-]"
     )
-    modulus_velocity_mm_per_s: Positive = Field(
+    modulus_velocity_mm_per_s: _Velocity = Field(
         1.0, description="v_ref of the stiffening of the rubber's surface [mm/s]"
     )
     emissivity: Share = Field(0.9, description="of every free surface [-]")
-    ambient_C: Celsius = Field(20.0, description="surroundings and start temperature [deg C]")
+    ambient_C: _Start = Field(20.0, description="surroundings and start temperature [deg C]")
 
     def partition_object(self) -> HeatPartition:
         """Build kappa(p)."""

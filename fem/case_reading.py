@@ -61,7 +61,7 @@ def read_toml(path: Path, *, named_by: tuple[str, str] | None = None) -> Table:
         _raise(file, key, f"{shown}unreadable ({reason})", "a readable TOML file")
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # of tomllib, or of int() for thousands of digits
         _raise(str(path), "syntax", f"text that is not TOML: {error}", "TOML")
     except RecursionError:
         _raise(str(path), "syntax", "tables nested too deeply", "TOML")
@@ -69,6 +69,14 @@ def read_toml(path: Path, *, named_by: tuple[str, str] | None = None) -> Table:
 
 def _raise(file: str, key: str, found: str, expected: str) -> NoReturn:
     raise CaseError(file=file, key=key, found=found, expected=expected) from None
+
+
+def expanded(name: str, file: str, key: str) -> Path:
+    """The path of a name, ``~`` and ``~user`` expanded; `file` and `key` are where it stands."""
+    try:
+        return Path(name).expanduser()
+    except RuntimeError:
+        _raise(file, key, describe(name), "a user of this machine after ~")
 
 
 def expand_references(source: Source) -> None:
@@ -82,7 +90,7 @@ def expand_references(source: Source) -> None:
         key = f"{section}.parameters"
         if not isinstance(name, str) or not name:
             _raise(here, key, describe(name), "the name of a parameter file in quotes")
-        path = source.folder / Path(name).expanduser()
+        path = source.folder / expanded(name, here, key)
         content = read_toml(path, named_by=(here, key)).get(section)
         if not isinstance(content, dict):
             found = f"{describe(name)} without a table [{section}]"
@@ -116,13 +124,15 @@ def parse_override(text: str) -> tuple[str, Any]:
     """Split ``section.key=value`` and read the value as TOML; bare words are texts."""
     key, equals, value = text.partition("=")
     key, value = key.strip(), value.strip()
+    if not text.isprintable():
+        _raise("--set", "override", describe(text), "section.key=value in printable characters")
     if not equals or not all(key.split(".")) or "." not in key or not value:
         _raise("--set", key or "override", describe(text), "section.key=value")
     try:
         parsed = tomllib.loads(f"value = {value}")
         if list(parsed) == ["value"]:
             return key, parsed["value"]
-    except (tomllib.TOMLDecodeError, RecursionError):
+    except (ValueError, RecursionError):
         if _BARE_WORD.fullmatch(value):
             return key, value
     _raise("--set", key, describe(value), 'a TOML value, e.g. 0.3, true, "text"')
@@ -156,7 +166,7 @@ def _set(source: Source, dotted: str, value: Any) -> None:
         table = table[section]
     if key == "parameters" and isinstance(value, str):
         # A reference given on the command line is relative to where the command runs.
-        value = str(Path(value).expanduser().absolute())
+        value = str(expanded(value, "--set", dotted).absolute())
     table[key] = value
     source.origins[tuple(dotted.split("."))] = f"{source.file} (overridden)"
 
@@ -167,8 +177,13 @@ def _drop_replaced(tables: Table, dotted: str) -> None:
         "rubber.model": ("compound", *ALL_CONSTANTS),
         "rubber.parameters": ("compound", "model", *ALL_CONSTANTS),
         "friction.law": ALL_PARAMETERS,
+        "heat.partition.law": ("exponent",),
         "friction.parameters": ("law", *ALL_PARAMETERS),
     }.get(dotted, ())
-    section = tables.get(dotted.split(".")[0])
-    if replaced and isinstance(section, dict):
-        tables[dotted.split(".")[0]] = {k: v for k, v in section.items() if k not in replaced}
+    *sections, _ = dotted.split(".")
+    for section in sections[:-1]:
+        inner = tables.get(section)
+        tables = inner if isinstance(inner, dict) else {}
+    table = tables.get(sections[-1])
+    if replaced and isinstance(table, dict):
+        tables[sections[-1]] = {k: v for k, v in table.items() if k not in replaced}

@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from fem.case_base import Finite, Positive, Section, given, refuse, refuse_sentence
+from fem.case_base import (
+    Constant,
+    Factor,
+    Positive,
+    Section,
+    Within,
+    given,
+    refuse,
+    refuse_finding,
+    refuse_sentence,
+)
 from fem.case_errors import describe, suggestion
 from materials.compounds import COMPOUNDS, compound
 from materials.hyperelastic import (
@@ -18,6 +29,14 @@ from materials.hyperelastic import (
     Yeoh,
 )
 from materials.ogden import Ogden
+from materials.plausible import (
+    CONDUCTIVITY,
+    RUBBER_DENSITY,
+    SHEAR_MODULUS,
+    SPECIFIC_HEAT,
+    Finding,
+    judge,
+)
 from materials.thermal import ThermalProperties
 
 DEFAULT_COMPOUND = "yeoh-bars-series-1-load"
@@ -50,29 +69,35 @@ class Rubber(Section):
         Literal["neo-hooke", "mooney-rivlin", "yeoh", "van-der-waals", "arruda-boyce", "ogden"]
         | None
     ) = Field(None, alias="model", description="hyperelastic model, instead of a compound")
-    C10_N_per_mm2: Finite | None = Field(None, description="first invariant, linear [N/mm^2]")
-    C01_N_per_mm2: Finite | None = Field(None, description="second invariant, linear [N/mm^2]")
-    C20_N_per_mm2: Finite | None = Field(None, description="first invariant, squared [N/mm^2]")
-    C30_N_per_mm2: Finite | None = Field(None, description="first invariant, cubed [N/mm^2]")
-    G_N_per_mm2: Positive | None = Field(None, description="initial shear modulus [N/mm^2]")
-    C1_N_per_mm2: Finite | None = Field(None, description="Arruda-Boyce, factor [N/mm^2]")
-    lambda_m: Annotated[float, Field(gt=1.0, allow_inf_nan=False)] | None = Field(
+    C10_N_per_mm2: Constant | None = Field(None, description="first invariant, linear [N/mm^2]")
+    C01_N_per_mm2: Constant | None = Field(None, description="second invariant, linear [N/mm^2]")
+    C20_N_per_mm2: Constant | None = Field(None, description="first invariant, squared [N/mm^2]")
+    C30_N_per_mm2: Constant | None = Field(None, description="first invariant, cubed [N/mm^2]")
+    G_N_per_mm2: Factor | None = Field(None, description="initial shear modulus [N/mm^2]")
+    C1_N_per_mm2: Constant | None = Field(None, description="Arruda-Boyce, factor [N/mm^2]")
+    lambda_m: Annotated[float, Field(gt=1.0, le=1e6, allow_inf_nan=False)] | None = Field(
         None, description="locking stretch [-]"
     )
-    a: Finite | None = Field(None, description="global interaction parameter [-]")
+    a: Constant | None = Field(None, description="global interaction parameter [-]")
     beta: Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)] | None = Field(
         None, description="share of the second invariant [-]"
     )
-    mu_N_per_mm2: list[Finite] | None = Field(
+    mu_N_per_mm2: list[Constant] | None = Field(
         None, description="Ogden, moduli whose sum is the shear modulus [N/mm^2]"
     )
-    alpha: list[Finite] | None = Field(None, description="Ogden, exponents of the stretches [-]")
+    alpha: list[Constant] | None = Field(None, description="Ogden, exponents of the stretches [-]")
     bulk_ratio: Annotated[float, Field(gt=2.0 / 3.0, le=1e6, allow_inf_nan=False)] = Field(
         100.0, description="bulk modulus over initial shear modulus [-]"
     )
-    conductivity_W_per_mK: Positive = Field(0.284, description="thermal conductivity [W/(m K)]")
-    density_kg_per_m3: Positive = Field(1207.0, description="density [kg/m^3]")
-    specific_heat_kJ_per_kgK: Positive = Field(1.45, description="specific heat [kJ/(kg K)]")
+    conductivity_W_per_mK: Annotated[Positive, Within(CONDUCTIVITY)] = Field(
+        0.284, description="thermal conductivity [W/(m K)]"
+    )
+    density_kg_per_m3: Annotated[Positive, Within(RUBBER_DENSITY)] = Field(
+        1207.0, description="density [kg/m^3]"
+    )
+    specific_heat_kJ_per_kgK: Annotated[Positive, Within(SPECIFIC_HEAT)] = Field(
+        1.45, description="specific heat [kJ/(kg K)]"
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -100,7 +125,25 @@ class Rubber(Section):
             self.model()
         except ValueError as error:
             refuse_sentence("model", str(self.model_name or self.compound), error)
+        finding = self._stiffness()
+        if finding is not None and finding.impossible:
+            found = f"constants with the shear modulus {finding.value:g} N/mm^2"
+            refuse_finding(self._stiff_key, found, finding)
         return self
+
+    def unusual(self) -> Iterator[tuple[str, Finding]]:
+        """Keys whose numbers are unusual; the constants are judged by the shear modulus."""
+        yield from super().unusual()
+        finding = self._stiffness()
+        if finding is not None:
+            yield self._stiff_key, finding
+
+    def _stiffness(self) -> Finding | None:
+        return judge(self.model().initial_shear_modulus, SHEAR_MODULUS)
+
+    @property
+    def _stiff_key(self) -> str:
+        return "compound" if self.model_name is None else CONSTANTS[self.model_name][0][0]
 
     def model(self) -> Hyperelastic:
         """Build the hyperelastic model [N/mm^2]."""

@@ -3,17 +3,34 @@
 from __future__ import annotations
 
 from importlib.util import find_spec
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, field_validator, model_validator
 
-from fem.case_base import Count, NotNegative, Positive, Section, refuse
+from fem.case_base import Count, Finite, Positive, Section, Within, refuse
+from materials.plausible import (
+    BLOCK_SIZE,
+    CONDUCTIVITY,
+    PRESSURE,
+    SLIDING_DISTANCE,
+    SOLID_DENSITY,
+    SPECIFIC_HEAT,
+    SPEED,
+)
 from materials.thermal import ThermalProperties
 
 #: Elements a mesh may have at most. 250,000 take about ten gigabytes in the sparse solver.
 LARGEST_MESH = 250_000
-#: Fastest sliding that makes sense [mm/s]; beyond 100 m/s the number is in the wrong unit.
-FASTEST = 1.0e5
+#: Passes over friction coefficient and pairs of self-contact that a step can take.
+MOST_PASSES = 6
+_Size = Annotated[Positive, Within(BLOCK_SIZE)]
+_Conductivity = Annotated[Positive, Within(CONDUCTIVITY)]
+_Density = Annotated[Positive, Within(SOLID_DENSITY)]
+_SpecificHeat = Annotated[Positive, Within(SPECIFIC_HEAT)]
+_Pressure = Annotated[Positive, Within(PRESSURE)]
+_Distance = Annotated[Positive, Within(SLIDING_DISTANCE)]
+_StepLength = Annotated[float, Field(ge=1e-7, le=1e3, allow_inf_nan=False)]
+_ViscousDistance = Annotated[float, Field(ge=0.0, le=1e6, allow_inf_nan=False)]
 
 
 class MeshSpec(Section):
@@ -50,8 +67,8 @@ Mesh = Annotated[
 class Block(Section):
     """The tread block's cross-section."""
 
-    length_mm: Positive = Field(20.0, description="length along the sliding direction [mm]")
-    height_mm: Positive = Field(8.0, description="height from the road to the platen [mm]")
+    length_mm: _Size = Field(20.0, description="length along the sliding direction [mm]")
+    height_mm: _Size = Field(8.0, description="height from the road to the platen [mm]")
     mesh: Mesh = Field(
         "default",
         description='"coarse", "default", "fine" or a table of cells_x, cells_y, smallest_x_mm, '
@@ -84,9 +101,9 @@ def _check_grading(side: str, size: float, cells: int, axis: str, mesh: MeshSpec
 class Road(Section):
     """Thermal data of the road (asphalt)."""
 
-    conductivity_W_per_mK: Positive = Field(0.70, description="thermal conductivity [W/(m K)]")
-    density_kg_per_m3: Positive = Field(2000.0, description="density [kg/m^3]")
-    specific_heat_kJ_per_kgK: Positive = Field(0.92, description="specific heat [kJ/(kg K)]")
+    conductivity_W_per_mK: _Conductivity = Field(0.70, description="thermal conductivity [W/(m K)]")
+    density_kg_per_m3: _Density = Field(2000.0, description="density [kg/m^3]")
+    specific_heat_kJ_per_kgK: _SpecificHeat = Field(0.92, description="specific heat [kJ/(kg K)]")
 
     @property
     def thermal(self) -> ThermalProperties:
@@ -99,22 +116,22 @@ class Road(Section):
 class Loading(Section):
     """What is done to the block. The only section that must be given."""
 
-    mean_pressure_N_per_mm2: Positive = Field(
+    mean_pressure_N_per_mm2: _Pressure = Field(
         description="pressure on the top of the block, averaged over its length [N/mm^2]"
     )
-    velocity_mm_per_s: Annotated[float, Field(ge=-FASTEST, le=FASTEST, allow_inf_nan=False)] = (
-        Field(description="sliding velocity [mm/s]; negative slides to the left")
+    velocity_mm_per_s: Annotated[Finite, Within(SPEED)] = Field(
+        description="sliding velocity [mm/s]; negative slides to the left"
     )
-    distance_mm: Positive = Field(description="sliding distance of the platen [mm]")
+    distance_mm: _Distance = Field(description="sliding distance of the platen [mm]")
     top: Literal["platen", "pressure"] = Field(
         "platen",
         description='"platen": rigid plate glued to the top; "pressure": free, uniformly pressed',
     )
 
-    @field_validator("velocity_mm_per_s")
+    @field_validator("velocity_mm_per_s", mode="before")
     @classmethod
-    def _moves(cls, value: float) -> float:
-        if value == 0.0:
+    def _moves(cls, value: Any) -> Any:
+        if isinstance(value, int | float) and value == 0:
             refuse("", str(value), "a velocity other than zero (negative slides to the left)")
         return value
 
@@ -122,30 +139,38 @@ class Loading(Section):
 class Solver(Section):
     """Numerical settings; the defaults are meant for every case."""
 
-    tolerance: Annotated[float, Field(gt=0.0, le=1e-2, allow_inf_nan=False)] = Field(
+    tolerance: Annotated[float, Field(ge=1e-14, le=1e-2, allow_inf_nan=False)] = Field(
         1e-8, description="residual of the balance of forces relative to the load [-]"
     )
-    step_mm_initial: Positive = Field(0.02, description="first sliding step [mm]")
-    step_mm_max: Positive = Field(2.0, description="longest sliding step [mm]")
-    step_mm_min: Positive = Field(1e-5, description="shortest sliding step before giving up [mm]")
-    newton_iterations_max: Count = Field(25, description="Newton iterations per step at most [-]")
-    friction_passes: Count = Field(
+    step_mm_initial: _StepLength = Field(0.02, description="first sliding step [mm]")
+    step_mm_max: _StepLength = Field(2.0, description="longest sliding step [mm]")
+    step_mm_min: _StepLength = Field(
+        1e-5, description="shortest sliding step before giving up [mm]"
+    )
+    newton_iterations_max: Annotated[int, Field(ge=1, le=1000)] = Field(
+        25, description="Newton iterations per step at most [-]"
+    )
+    friction_passes: Annotated[int, Field(ge=1, le=MOST_PASSES)] = Field(
         2, description="passes per step over the lagged friction coefficient [-]"
     )
     inertia: bool = Field(True, description="backward-Euler inertia of the rubber")
-    viscous_distance_mm: NotNegative = Field(
+    viscous_distance_mm: _ViscousDistance = Field(
         5.0,
         description="Kelvin-Voigt regularisation: relaxation time times velocity [mm]; 0: none",
     )
-    edge_viscous_distance_mm: NotNegative = Field(
+    edge_viscous_distance_mm: _ViscousDistance = Field(
         100.0, description="the same, added at the leading corner [mm]"
     )
     edge_radius_mm: Positive = Field(
         2.0, description="distance from the leading corner over which that fades [mm]"
     )
     self_contact: bool = Field(True, description="contact of the block's surface with itself")
-    heat_step_mm: Positive = Field(0.5, description="longest sliding distance per heat step [mm]")
-    steps_scale: Positive = Field(1.0, description="factor on all steps; 0.5 halves them [-]")
+    heat_step_mm: _StepLength = Field(
+        0.5, description="longest sliding distance per heat step [mm]"
+    )
+    steps_scale: Annotated[float, Field(ge=1e-3, le=100.0, allow_inf_nan=False)] = Field(
+        1.0, description="factor on all steps; 0.5 halves them [-]"
+    )
     linear_solver: Literal["auto", "superlu", "pardiso"] = Field(
         "auto",
         description='"superlu", "pardiso" (extra "fast"), or "auto": the faster, which is SuperLU',
@@ -175,6 +200,6 @@ class Output(Section):
     )
     vtu: bool = Field(True, description="write the snapshots for ParaView")
     figures: bool = Field(True, description="draw the figures of the run")
-    checkpoint_s: NotNegative = Field(
+    checkpoint_s: Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False)] = Field(
         5.0, description="time between checkpoints of a run [s]; 0 is one after each step"
     )

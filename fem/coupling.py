@@ -26,6 +26,7 @@ from contact.self_contact import (
     pair_penetration,
 )
 from fem import newton
+from fem.case_sections import MOST_PASSES
 from fem.heat import HeatLoad, HeatModel, HeatState
 from fem.mechanics import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
 from fem.programme import Target
@@ -40,8 +41,6 @@ W_PER_M2K = 1e-3
 LAG_TOLERANCE = 1e-3
 #: Deepest penetration of the block into itself in an accepted step, over the local element size.
 PENETRATION_MAX = 0.01
-#: Largest number of passes over friction coefficient and pairs of self-contact.
-PASSES_MAX = 6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -251,7 +250,7 @@ class CoupledModel:
         start = problem.start()
         iterations = hardest = 0
         self.mechanics.solver.forget()
-        for number in range(1, PASSES_MAX + 1):
+        for number in range(1, MOST_PASSES + 1):
             last = number >= self.friction_passes
             options = self.options if last else self.first_options
             result = newton.solve(problem, start, options)

@@ -81,7 +81,7 @@ class Finding:
     likely : str
         ``looks like kelvin (20 deg C)``; empty where no slip explains the number.
     expected : str
-        ``a temperature from -150 to 250 deg C``.
+        ``a temperature from -200 to 250 deg C``.
     """
 
     index: int
@@ -208,7 +208,7 @@ _METRES = (Slip("metres", 1e3), Slip("micrometres", 1e-3), Slip("inches", 25.4))
 
 #: Of rubber or road, measured or reached; rubber decomposes above.
 TEMPERATURE = Quantity(
-    what="a temperature", unit="deg C", possible=(-150.0, 250.0), usual=(-100.0, 150.0),
+    what="a temperature", unit="deg C", possible=(-200.0, 250.0), usual=(-100.0, 150.0),
     slips=_DEGREES,
 )  # fmt: skip
 #: Of the surroundings, before anything slides.

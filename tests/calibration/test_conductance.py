@@ -155,7 +155,7 @@ GOOD = short_record(noise_K=0.0)
         (GOOD[["time_s", "heater_power_W", "C1_C"]], ["C1", "one in the asphalt"]),
         (GOOD[["time_s", "heater_power_W", "D1_C"]], ["D1", "one column in the rubber"]),
         (broken(GOOD, "C2_C", np.nan), ["row 6", "column C2_C", "a finite number"]),
-        (broken(GOOD, "D1_C", -300.0), ["row 6", "D1_C", "-300.0", "from -150 to 250"]),
+        (broken(GOOD, "D1_C", -300.0), ["row 6", "D1_C", "-300.0", "from -200 to 250"]),
         (broken(GOOD, "time_s", 0.0), ["row 6", "time_s", "a time after the row before"]),
         (broken(GOOD, "heater_power_W", -2.0), ["heater_power_W", "-2.0", "from 0 to 1e+06 W"]),
         (GOOD.assign(heater_power_W=0.0), ["no power in any row", "heating"]),

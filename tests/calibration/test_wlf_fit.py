@@ -200,7 +200,7 @@ def test_glassy_sweeps_and_rising_factors_are_named():
     [
         (
             {"T_C": -300.0},
-            r"row 3, column T_C: found -300.0, expected a temperature from -150",
+            r"row 3, column T_C: found -300.0, expected a temperature from -200",
         ),
         ({"modulus_N_per_mm2": 0.0}, r"row 3, column modulus_N_per_mm2: found 0.0, expected"),
         ({"frequency_Hz": -1.0}, r"row 3, column frequency_Hz: found -1.0, expected"),

@@ -129,7 +129,7 @@ def test_what_is_no_measurement_says_so_in_its_name_and_its_first_line():
         ("x_mm,T_C\n0,20\n1,21\n", ["row 1", "column run"]),
         ("run,x_mm,T_C\na,0,20\na,1,hot\n", ["row 3", "column T_C", "'hot'", "a finite number"]),
         ("run,x_mm,T_C\na,0,20\na,,21\n", ["row 3", "column x_mm", "nothing"]),
-        ("run,x_mm,T_C\na,0,20\na,1,-300\n", ["row 3", "column T_C", "-300", "from -150 to 250"]),
+        ("run,x_mm,T_C\na,0,20\na,1,-300\n", ["row 3", "column T_C", "-300", "from -200 to 250"]),
         ("run,x_mm,T_C\na,0,20\na,2,21\na,1,22\n", ["row 4", "x_mm", "1 after 2", "increase"]),
         ("run,x_mm,T_C\na,0,20\na,0,21\n", ["row 3", "0 after 0", "increase"]),
         ("run,x_mm,T_C\na,0,20\nb,0,21\nb,1,21\n", ["row 2", "1 point of run a", "at least 2"]),
