@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
@@ -20,6 +20,7 @@ from fem import Case, simulate
 from fem.case_errors import CaseError
 from fem.case_reading import parse_override
 from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
+from fem.cost import estimated_cost, refuse_unaffordable
 from fem.interruption import gently, listening, requested
 from fem.machine_faults import cause, one_line
 from fem.output_folder import check_output_file, chosen_output, output_folder
@@ -113,9 +114,19 @@ def _add_case_arguments(parser: argparse.ArgumentParser) -> None:
         dest="overrides",
         help="set a key of the case; may be repeated",
     )
+    _add_accept_unusual(parser)
+
+
+def _add_accept_unusual(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--accept-unusual",
+        action="store_true",
+        help="no warning of numbers outside their usual range (the results keep it)",
+    )
 
 
 def _load(arguments: argparse.Namespace) -> Case:
+    """The case of a command that may run it: what cannot be is refused, what is unusual said."""
     overrides = dict(parse_override(text) for text in arguments.overrides)
     case = Case.from_toml(arguments.case, overrides)
     if case.solver.linear_solver == "pardiso" and importlib.util.find_spec("pypardiso") is None:
@@ -125,7 +136,15 @@ def _load(arguments: argparse.Namespace) -> Case:
             found='"pardiso" without the package pypardiso',
             expected='"auto" or "superlu", or treadfem installed with the extra "fast"',
         )
+    refuse_unaffordable(case)
+    if not arguments.accept_unusual:
+        _warn(f"{case.source}: {sentence}" for sentence in case.warnings)
     return case
+
+
+def _warn(sentences: Iterable[str]) -> None:
+    for sentence in sentences:
+        print(" ".join(f"treadfem: warning: {sentence}".split()), file=sys.stderr)
 
 
 # -- run ---------------------------------------------------------------------------------------
@@ -169,7 +188,7 @@ def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
         _say_how_it_starts(found, checkpoint, resume=arguments.resume)
     if found == "finished":
         _draw(case, directory, missing_only=True)
-        return _code(read_summary(directory), strict=arguments.strict)
+        return _code(read_summary(directory), said=case.warnings, arguments=arguments)
     # Whatever is asked for meanwhile, what was accepted is written.
     with gently():
         with _Progress(case, quiet=arguments.quiet) as progress:
@@ -189,7 +208,7 @@ def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
     if result.summary["status"] == "ok":
         # Only now: whatever came before can be interrupted, too.
         remove_checkpoint(checkpoint)
-    return _close(result.summary, directory, quiet=arguments.quiet, strict=arguments.strict)
+    return _close(result.summary, directory, case.warnings, arguments)
 
 
 def _draw(case: Case, directory: Path, *, missing_only: bool = False) -> None:
@@ -248,11 +267,13 @@ class _Progress:
 _BAR = "{percentage:3.0f} %|{bar}| {n:.1f}/{total:g} mm [{elapsed}<{remaining}]{postfix}"
 
 
-def _close(summary: dict[str, Any], directory: Path, *, quiet: bool, strict: bool) -> int:
-    if not quiet:
+def _close(
+    summary: dict[str, Any], directory: Path, said: Sequence[str], arguments: argparse.Namespace
+) -> int:
+    if not arguments.quiet:
         print(_summary_table(summary))
         print(f"results in {directory}")
-    code = _code(summary, strict=strict)
+    code = _code(summary, said=said, arguments=arguments)
     if code not in (DONE, WARNED):
         status = str(summary.get("status"))
         advice = [str(summary[key]) for key in ("reason", "advice") if summary.get(key)]
@@ -263,13 +284,13 @@ def _close(summary: dict[str, Any], directory: Path, *, quiet: bool, strict: boo
     return code
 
 
-def _code(summary: dict[str, Any], *, strict: bool) -> int:
-    """Exit code of a run; its warnings are printed."""
-    warnings = summary.get("warnings") or []
-    for warning in warnings:
-        print(" ".join(f"treadfem: warning: {warning}".split()), file=sys.stderr)
+def _code(summary: dict[str, Any], *, said: Sequence[str], arguments: argparse.Namespace) -> int:
+    """Exit code of a run; its warnings are printed, those of the case were `said` before."""
+    found = [warning for warning in summary.get("warnings") or [] if warning not in said]
+    _warn(found)
     code = _STATUS_CODES.get(str(summary.get("status", "not converged")), NOT_CONVERGED)
-    return WARNED if code == DONE and warnings and strict else code
+    counted = bool(found) or (bool(said) and not arguments.accept_unusual)
+    return WARNED if code == DONE and counted and arguments.strict else code
 
 
 def _summary_table(summary: dict[str, Any]) -> str:
@@ -373,7 +394,8 @@ def _add_check(commands: Any) -> None:
 
 def _check(arguments: argparse.Namespace) -> int:
     case = _load(arguments)
-    sys.stdout.write(case.to_toml(f"{arguments.case}, every key as it is used."))
+    heading = f"{arguments.case}, every key as it is used.\nA run: {estimated_cost(case)}."
+    sys.stdout.write(case.to_toml(heading))
     return DONE
 
 
