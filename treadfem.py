@@ -322,6 +322,10 @@ def _add_sweep(commands: Any) -> None:
     parser.add_argument(
         "--resume", action="store_true", help="keep the cases that are finished already"
     )
+    parser.add_argument(
+        "--yes", action="store_true", help="begin a study of more than 1000 cases without asking"
+    )
+    _add_strict(parser)
     parser.set_defaults(command=_sweep)
 
 
@@ -340,12 +344,23 @@ def _sweep(arguments: argparse.Namespace) -> int:
                 scheduler=arguments.scheduler,
                 resume=arguments.resume,
                 progress=bar,
+                confirm=lambda size: arguments.yes or _agreed(size),
             )
     except SchedulerLostError as error:
         print(f"treadfem: {error}; --resume goes on from {directory}", file=sys.stderr)
         return NOT_CONVERGED
     print(closing_line(state, directory))
-    return DONE if state.all_ok else NOT_CONVERGED
+    if not state.all_ok:
+        return NOT_CONVERGED
+    return WARNED if state.warned and arguments.strict else DONE
+
+
+def _agreed(size: str) -> bool:
+    """Whether somebody at a terminal wants that much."""
+    if not (sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty()):
+        return False
+    print(f"{size}. Go on? [y/N] ", end="", file=sys.stderr, flush=True)
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
 
 
 # -- compare -----------------------------------------------------------------------------------

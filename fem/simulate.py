@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -260,7 +261,10 @@ def simulate(
     ------
     CheckpointError
         If the checkpoint to resume from is damaged or of another case or version.
+    TypeError
+        If an argument is of another type.
     """
+    _check_types(case, progress, checkpoint)
     kept_in = Checkpoint(checkpoint, case) if checkpoint is not None else None
     if case.block.rigid:
         return simulate_rigid(case, progress, kept_in, resume)
@@ -286,6 +290,16 @@ def simulate(
         recorder.snapshots,
         log=[*run.log, *notes(kept_in), *closing_lines(outcome, summary["warnings"])],
     )
+
+
+def _check_types(case: object, progress: object, checkpoint: object) -> None:
+    if not isinstance(case, Case):
+        how = "a Case, as Case.from_dict or Case.from_toml makes one"
+        raise TypeError(f"case is a {type(case).__name__}, expected {how}")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress is a {type(progress).__name__}, expected a function or None")
+    if checkpoint is not None and not isinstance(checkpoint, str | os.PathLike):
+        raise TypeError(f"checkpoint is a {type(checkpoint).__name__}, expected a path or None")
 
 
 def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:

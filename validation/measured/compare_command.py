@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from fem import spreadsheet
 from fem.atomic_files import write_text
 from validation.drawing.style import save
 from validation.measured.comparison import Comparison, compare, simulated_runs
@@ -43,7 +44,9 @@ def write_comparison(measured: str | Path, results: str | Path, directory: str |
         "measured.csv": measurements.points.drop(columns="row"),
     }
     for name, table in tables.items():
-        write_text(directory / name, table.to_csv(index=False, lineterminator="\n"))
+        write_text(
+            directory / name, spreadsheet.table(table).to_csv(index=False, lineterminator="\n")
+        )
     save(draw_comparison(comparison), directory / "comparison.png")
     if measurements.profiles:
         save(draw_profiles(measurements, runs), directory / "profiles.png")

@@ -7,6 +7,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from fem.case_errors import CaseError
+
 _DECIMAL = re.compile(r"[+-]?(\d+\.\d*|\.\d+|\d+(?=[eE]))([eE][+-]?\d+)?")
 
 
@@ -51,9 +53,19 @@ class CellTable:
 
 
 def read_cells(path: Path) -> CellTable:
-    """Read a CSV file with a header line; short rows are filled up, long ones cut."""
-    with path.open(encoding="utf-8", newline="") as file:
-        lines = [line for line in csv.reader(file) if line]
+    """Read a CSV file with a header line; short rows are filled up, long ones cut.
+
+    Raises
+    ------
+    CaseError
+        If it is no such file.
+    """
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            lines = [line for line in csv.reader(file) if line]
+    except (UnicodeDecodeError, csv.Error) as error:
+        found, expected = f"no table in UTF-8 ({error})", "what the program wrote (make it again)"
+        raise CaseError(file=str(path), key="content", found=found, expected=expected) from None
     columns = tuple(lines[0]) if lines else ()
     width = len(columns)
     rows = tuple(

@@ -115,7 +115,7 @@ def first_paragraph(path: Path) -> str:
     """Text before the first empty line; nothing if there is no such file."""
     if not path.is_file():
         return ""
-    return " ".join(path.read_text(encoding="utf-8").split("\n\n")[0].split())
+    return " ".join(path.read_text(encoding="utf-8", errors="replace").split("\n\n")[0].split())
 
 
 def _picture(path: Path) -> str:

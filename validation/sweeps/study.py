@@ -14,7 +14,7 @@ import json
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
@@ -61,7 +61,7 @@ def read_study(path: str | Path) -> list[StudyCase]:
         With file, key, what was found and what was expected, in one line.
     """
     study = _read_tables(Path(path))
-    overrides = list(study.combinations())
+    overrides = [study.combination(number) for number in range(study.number)]
     if _has_twins(overrides):
         _refuse(study.path, "grid", "the same combination twice", "different values")
     cases = [
@@ -75,8 +75,16 @@ def read_study(path: str | Path) -> list[StudyCase]:
 
 def number_of_cases(path: str | Path) -> int:
     """How many cases a study file stands for, without making them."""
+    return _read_tables(Path(path)).number
+
+
+def some_cases(path: str | Path, most: int) -> list[Case]:
+    """Some cases of a study file, evenly spread over all of them."""
     study = _read_tables(Path(path))
-    return len(study.extra) * math.prod(len(values) for values in study.grid.values())
+    count = min(most, study.number)
+    chosen = (k * (study.number - 1) // max(1, count - 1) for k in range(count))
+    overrides = (_from_here(study, study.combination(number)) for number in chosen)
+    return [Case.from_toml(study.base, values) for values in overrides]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,10 +97,18 @@ class _Study:
     extra: list[dict[str, Any]]
     names: dict[str, str]
 
-    def combinations(self) -> Iterator[dict[str, Any]]:
-        for table in self.extra:
-            for values in itertools.product(*self.grid.values()):
-                yield dict(zip(self.grid, values, strict=True)) | table
+    @property
+    def number(self) -> int:
+        """How many combinations there are."""
+        return len(self.extra) * math.prod(len(values) for values in self.grid.values())
+
+    def combination(self, number: int) -> dict[str, Any]:
+        """One of them; the last key of the grid changes first, the extra tables last."""
+        chosen = {}
+        for key, values in reversed(self.grid.items()):
+            number, place = divmod(number, len(values))
+            chosen[key] = values[place]
+        return {key: chosen[key] for key in self.grid} | self.extra[number]
 
 
 def _read_tables(path: Path) -> _Study:

@@ -6,10 +6,12 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+from fem.case_errors import CaseError
 from fem.output_folder import output_folder
 from fem.program_version import program_version
 from fem.results import SUMMARY_CSV
-from validation.sweeps.study import StudyCase, read_study
+from validation.sweeps.size import MANY_CASES, size_of_study
+from validation.sweeps.study import StudyCase, number_of_cases, read_study
 from validation.sweeps.sweep_case import RUNS_FOLDER, SweepTask, finished_outcome, forget
 from validation.sweeps.sweep_progress import SweepProgress
 from validation.sweeps.sweep_table import TIMINGS_CSV, SweepTable
@@ -24,6 +26,7 @@ def sweep(
     scheduler: str | None = None,
     resume: bool = False,
     progress: Callable[[SweepProgress], None] | None = None,
+    confirm: Callable[[str], bool] | None = None,
 ) -> SweepProgress:
     """Run all cases of a study file.
 
@@ -43,6 +46,9 @@ def sweep(
         Keep cases that the same program has finished; otherwise all are run.
     progress : callable, optional
         Called with a `SweepProgress` when a case has finished, and some times a second.
+    confirm : callable, optional
+        Asked before a study of more than a thousand cases, with its size in words; without it (or
+        if it says no) such a study is not begun.
 
     Returns
     -------
@@ -52,12 +58,20 @@ def sweep(
     Raises
     ------
     CaseError
-        If the study, the number of workers or the address is wrong; nothing is written then.
+        If the study, the number of workers or the address is wrong, or the study too large;
+        nothing is written then.
+    TypeError
+        If an argument is of another type.
     SchedulerLostError
         If the scheduler went away; what was finished is in the table.
     """
-    cases = read_study(study)
     workers = number_of_workers(workers, scheduler)
+    if number_of_cases(study) > MANY_CASES:
+        size = size_of_study(study, workers)
+        if confirm is None or not confirm(size):
+            expected = f"at most {MANY_CASES} cases, or --yes"
+            raise CaseError(file=str(study), key="grid", found=size, expected=expected)
+    cases = read_study(study)
     with output_folder(
         directory, files=(SUMMARY_CSV, TIMINGS_CSV), folders=[RUNS_FOLDER]
     ) as folder:
@@ -92,6 +106,7 @@ def _sweep(
             done=len(table.rows),
             earlier=earlier,
             status=dict(Counter(row["status"] for row in table.rows.values())),
+            warned=sum(bool(row.get("warnings")) for row in table.rows.values()),
         )
         if progress is not None:
             progress(state)

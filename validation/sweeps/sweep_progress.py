@@ -29,12 +29,15 @@ class SweepProgress:
         Cases that an earlier sweep had finished.
     status : dict
         Number of finished cases by status.
+    warned : int
+        Number of finished cases whose results come with a warning.
     """
 
     cases: int
     done: int
     earlier: int
     status: dict[str, int]
+    warned: int = 0
 
     @property
     def all_ok(self) -> bool:
@@ -95,4 +98,5 @@ def closing_line(state: SweepProgress, directory: Path) -> str:
     """Say in one line what came out."""
     counts = ", ".join(f"{number} {status}" for status, number in sorted(state.status.items()))
     earlier = f" ({state.earlier} finished earlier)" if state.earlier else ""
-    return f"{state.cases} cases: {counts}{earlier}; table in {directory / SUMMARY_CSV}"
+    warned = f", {state.warned} with warnings" if state.warned else ""
+    return f"{state.cases} cases: {counts}{warned}{earlier}; table in {directory / SUMMARY_CSV}"

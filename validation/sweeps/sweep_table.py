@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from fem import spreadsheet
 from fem.atomic_files import write_text
 from fem.columns import SUMMARY
 from fem.results import SUMMARY_CSV, joined
@@ -70,7 +71,7 @@ class SweepTable:
         text = io.StringIO()
         writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows[case] for case in self.settings if case in rows)
+        writer.writerows(spreadsheet.row(rows[case]) for case in self.settings if case in rows)
         write_text(self.directory / name, text.getvalue())
 
 
