@@ -32,6 +32,9 @@ Array = NDArray[np.float64]
 COLUMNS = ("p_N_per_mm2", "v_mm_per_s", "mu")
 HUEMER_SCALE = 0.9203  # Table 2's a, the normalisation of the fit
 _SCALED = [0, 1, 4, 5, 6]  # places of alpha, beta, a, b, c
+_ONE_TEMPERATURE_K = 5.0  # data that span more were not measured at one temperature
+#: Pressures [N/mm^2] and speeds [mm/s] of tread blocks, up to ten times the mean at the edges.
+_OF_A_BLOCK = ((1e-3, 10.0), (1.0, 1e5))
 _LN10 = float(np.log(10.0))
 
 
@@ -324,13 +327,22 @@ def _completed(
     section: dict[str, Any] = {"law": law, **own, "wlf": wlf is not None}
     if wlf is not None:
         section.update(d1=wlf.d1, d2_K=wlf.d2_K, T_ref_C=float(T_ref_C))
+    elif data.T is not None and np.ptp(data.T) <= _ONE_TEMPERATURE_K:
+        section.update(T_ref_C=float(data.T.mean()))
     section.update(p_min_N_per_mm2=floors["p_min"], v_min_mm_per_s=floors["v_min"])
+    ranges = {"p_N_per_mm2": data.p, "v_mm_per_s": speed, "T_C": data.T}
+    window = {
+        key: [float(values.min()), float(values.max())]
+        for key, values in ranges.items()
+        if values is not None
+    }
+    negative = _negative_warnings(friction.law, data, speed)
     metadata = {
         "kind": "friction",
         "model": law,
         **data.table.origin,
-        "pressure_window_N_per_mm2": [float(data.p.min()), float(data.p.max())],
-        "velocity_window_mm_per_s": [float(speed.min()), float(speed.max())],
+        "T_ref_C": section.get("T_ref_C", "not known: the data hold no temperatures"),
+        "rows_used": len(data.table),
         "normalisation": _normalisation(result) if law == "huemer" else "none needed",
         "version": version(),
     }
@@ -338,9 +350,35 @@ def _completed(
         result,
         model=friction,
         metadata=metadata,
-        section={"friction": section},
-        warnings=(*result.warnings, *_data_warnings(data, wlf)),
+        section={"friction": {**section, "window": window}},
+        warnings=(*result.warnings, *_data_warnings(data, wlf), *negative),
     )
+
+
+def _negative_warnings(law: FrictionLaw, data: FrictionData, speed: Array) -> tuple[str, ...]:
+    """Where the law gives no friction or less: refused at the data, a warning beyond them.
+
+    Pressures and speeds are those of tread blocks and their edges.
+    """
+    at_data = law.coefficient(data.p, speed)
+    if np.any(at_data <= 0.0):
+        i = int(np.argmin(at_data))
+        data.table.refuse_at(
+            i, "mu", f"a best fit that gives {at_data[i]:.3g} there",
+            "a law that is positive over its data: another one, or fewer outliers",
+        )  # fmt: skip
+    p, v = (np.geomspace(*limits, 200) for limits in _OF_A_BLOCK)
+    positive = law.coefficient(p[:, None], v) > 0.0
+    if np.all(positive):
+        return ()
+    sound_p, sound_v = p[np.all(positive, axis=1)], v[np.all(positive, axis=0)]
+    if sound_p.size:
+        where = f"at pressures outside {sound_p.min():.3g} to {sound_p.max():.3g} N/mm^2"
+    elif sound_v.size:
+        where = f"at speeds outside {sound_v.min():.3g} to {sound_v.max():.3g} mm/s"
+    else:
+        where = "at some speed for every pressure"
+    return (f"outside the data the law gives a friction coefficient below zero, {where}",)
 
 
 def _normalisation(result: FitResult) -> str:
@@ -354,7 +392,7 @@ def _floors(data: FrictionData, speed: Array) -> dict[str, float]:
 
 
 def _data_warnings(data: FrictionData, wlf: WLF | None) -> tuple[str, ...]:
-    if wlf is None and data.T is not None and np.ptp(data.T) > 5.0:
+    if wlf is None and data.T is not None and np.ptp(data.T) > _ONE_TEMPERATURE_K:
         span = f"{data.T.min():g} to {data.T.max():g} deg C"
         return (f"the data span {span}, but no WLF shift takes part in the fit",)
     return ()
@@ -371,11 +409,17 @@ def compare_laws(
     -------
     DataFrame
         ``law, parameters, n_data, rmse, r2, aic, mu_largest_difference`` (the largest difference
-        between the law's curve and the best law's curve over the data), best AIC first.
+        between the law's curve and the best law's curve over the data), best AIC first, and
+        ``reason``. A law the data cannot carry has NaN and the reason.
     """
     data = read_friction(table)
-    found = {law: fit_friction(data, law, **options) for law in laws}
-    best = min(found.values(), key=lambda result: result.aic)
+    found, refused = {}, {}
+    for law in laws:
+        try:
+            found[law] = fit_friction(data, law, **options)
+        except ValueError as error:
+            refused[law] = str(error)
+    best = min(found.values(), key=lambda result: result.aic, default=None)
     rows = [
         {
             "law": law,
@@ -385,7 +429,14 @@ def compare_laws(
             "r2": result.r2,
             "aic": result.aic,
             "mu_largest_difference": float(np.abs(result.predicted - best.predicted).max()),
+            "reason": "",
         }
         for law, result in found.items()
+        if best is not None
     ]
-    return pd.DataFrame(rows).sort_values("aic").reset_index(drop=True)
+    nothing = dict.fromkeys(("rmse", "r2", "aic", "mu_largest_difference"), np.nan)
+    rows += [
+        {"law": law, "parameters": len(LAWS[law].names), "n_data": 0, **nothing, "reason": reason}
+        for law, reason in refused.items()
+    ]
+    return pd.DataFrame(rows).sort_values("aic", na_position="last").reset_index(drop=True)

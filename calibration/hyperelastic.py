@@ -246,6 +246,11 @@ def _completed(
         result,
         model=energy,
         metadata=metadata,
-        section={"rubber": law.section(model, values)},
+        section={
+            "rubber": {
+                **law.section(model, values),
+                "window": {"largest_stretch": data.largest_stretch},
+            }
+        },
         warnings=(*result.warnings, *modulus, *stability.warnings, *stability.elsewhere),
     )

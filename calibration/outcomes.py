@@ -124,7 +124,8 @@ def calibrate_friction(
     if compare:
         found = compare_laws(data, **_without_fixed(options))
         files["laws.csv"] = _csv(found)
-        text += _compared("both laws", found)
+        text += _compared("both laws", found.drop(columns="reason"))
+        text += "".join(f"\n{reason}" for reason in found["reason"] if reason)
     return _outcome(result, text, files)
 
 

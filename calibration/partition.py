@@ -305,10 +305,13 @@ def _completed(
         "exponent": law.exponent,
         "cap": law.cap,
     }
+    p = [slide.contact_pressure for slide in slides]
+    v = [condition.velocity for condition in data.conditions]
+    window = {"p_N_per_mm2": [min(p), max(p)], "v_mm_per_s": [min(v), max(v)]}
     warnings = (*result.warnings, *_warnings(slides, law, correction))
     return replace(
         result, model=law, metadata=metadata, warnings=warnings,
-        section={"heat": {"partition": partition}},
+        section={"heat": {"partition": partition, "window": window}},
     )  # fmt: skip
 
 

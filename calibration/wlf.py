@@ -118,13 +118,18 @@ def fit_wlf(
         "kind": "wlf",
         "model": "wlf",
         **data.origin,
-        "temperature_window_C": [float(T.min()), float(T.max())],
         "T_ref_C": reference,
         "T_C": T.tolist(),
         **_about_rows(data),
         "version": version(),
     }
-    section = {"wlf": True, "d1": wlf.d1, "d2_K": wlf.d2_K, "wlf_T_ref_C": reference}
+    section: dict[str, Any] = {
+        "wlf": True,
+        "d1": wlf.d1,
+        "d2_K": wlf.d2_K,
+        "wlf_T_ref_C": reference,
+        "window": {"T_C": [float(T.min()), float(T.max())]},
+    }
     return replace(
         result,
         model=wlf,

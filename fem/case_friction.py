@@ -27,6 +27,7 @@ from fem.case_base import (
     refuse_sentence,
 )
 from fem.case_errors import describe
+from fem.case_window import ContactWindow
 from materials.plausible import FRICTION, TEMPERATURE, WLF_D1, WLF_D2
 from materials.wlf import WLF
 
@@ -89,6 +90,9 @@ class Friction(Section):
     p_min_N_per_mm2: _PressureFloor = Field(1e-3, description="pressure floor of the law [N/mm^2]")
     v_min_mm_per_s: _SpeedFloor = Field(1.0, description="velocity floor of the law [mm/s]")
 
+    window: ContactWindow | None = Field(
+        None, description="ranges the law was fitted to; a run says what leaves them"
+    )
     rubber_on_rubber_mu: Annotated[NotNegative, Within(FRICTION)] = Field(
         1.0, description="Coulomb's coefficient where the block touches itself [-]"
     )

@@ -21,6 +21,7 @@ from fem.case_base import (
     refuse_sentence,
 )
 from fem.case_errors import describe
+from fem.case_window import ContactWindow
 from materials.plausible import CONDUCTANCE, PRESSURE, START_TEMPERATURE
 
 _Start = Annotated[Celsius, Within(START_TEMPERATURE)]
@@ -54,6 +55,9 @@ class Heat(Section):
     """Heat made at the contact, passed to the road and radiated."""
 
     partition: Partition = Field(Partition(), description="share of friction power made heat")
+    window: ContactWindow | None = Field(
+        None, description="ranges the partition was fitted to; a run says what leaves them"
+    )
     conductance_W_per_m2K: _Conductance = Field(
         1600.0, description="gap conductance at pressure_N_per_mm2 [W/(m^2 K)]"
     )

@@ -173,12 +173,12 @@ def _set(source: Source, dotted: str, value: Any) -> None:
 
 def _drop_replaced(tables: Table, dotted: str) -> None:
     replaced = {
-        "rubber.compound": ("model", *ALL_CONSTANTS),
-        "rubber.model": ("compound", *ALL_CONSTANTS),
-        "rubber.parameters": ("compound", "model", *ALL_CONSTANTS),
-        "friction.law": ALL_PARAMETERS,
+        "rubber.compound": ("model", "window", *ALL_CONSTANTS),
+        "rubber.model": ("compound", "window", *ALL_CONSTANTS),
+        "rubber.parameters": ("compound", "model", "window", *ALL_CONSTANTS),
+        "friction.law": ("window", *ALL_PARAMETERS),
         "heat.partition.law": ("exponent",),
-        "friction.parameters": ("law", *ALL_PARAMETERS),
+        "friction.parameters": ("law", "window", *ALL_PARAMETERS),
     }.get(dotted, ())
     *sections, _ = dotted.split(".")
     for section in sections[:-1]:

@@ -19,6 +19,7 @@ from fem.case_base import (
     refuse_sentence,
 )
 from fem.case_errors import describe, suggestion
+from fem.case_window import RubberWindow
 from materials.compounds import COMPOUNDS, compound
 from materials.hyperelastic import (
     ArrudaBoyce,
@@ -86,6 +87,9 @@ class Rubber(Section):
         None, description="Ogden, moduli whose sum is the shear modulus [N/mm^2]"
     )
     alpha: list[Constant] | None = Field(None, description="Ogden, exponents of the stretches [-]")
+    window: RubberWindow | None = Field(
+        None, description="range the law was fitted to; a run says what leaves it"
+    )
     bulk_ratio: Annotated[float, Field(gt=2.0 / 3.0, le=1e6, allow_inf_nan=False)] = Field(
         100.0, description="bulk modulus over initial shear modulus [-]"
     )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fem.audit import EnergyAudit
 from fem.case import Case
 from fem.coupling import AcceptedStep, CoupledModel, CoupledState
+from fem.fitted_window import contact_columns, rubber_columns
 from fem.mechanics import platen_displacement
 from fem.mesh import BlockMesh
 from fem.snapshot import BlockGeometry, Snapshot
@@ -60,8 +61,24 @@ class Recorder:
         status = step.after.contact.status
         row |= {"sticking_nodes": int(status.sticking.sum())}
         row |= {"slipping_nodes": int(status.slipping.sum())}
+        row |= self._window_columns(step)
         self.rows.append(row)
         return row
+
+    def _window_columns(self, step: AcceptedStep) -> dict[str, float]:
+        """Shares outside the ranges that the laws of the case were fitted to."""
+        contact, active = step.after.contact, step.after.contact.status.active
+        elements = step.evaluation.elements
+        assert elements is not None
+        kin = elements.kinematics
+        return contact_columns(
+            self.case,
+            p=contact.pressure[active],
+            v=contact.slip_velocity[active],
+            T=step.after.heat.T[self.model.mechanics.candidates][active],
+            length=contact.length[active],
+            slipping=contact.status.slipping[active],
+        ) | rubber_columns(self.case, kin.I1, kin.J, self.model.mechanics.elements.weights)
 
     def _contact_columns(self, step: AcceptedStep) -> dict[str, Any]:
         contact, direction = step.after.contact, self.mesh.direction

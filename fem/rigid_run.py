@@ -16,6 +16,7 @@ import pandas as pd
 from fem.balance import balance_error, share
 from fem.case import Case
 from fem.checkpoint import Checkpoint, notes
+from fem.fitted_window import contact_columns
 from fem.heat import HeatModel
 from fem.model_parts import Progress, mesh_of
 from fem.outcome import OK, Outcome, stoppable
@@ -144,7 +145,15 @@ class _RigidRun:
         row |= {"newton_iterations": 0}
         row |= self._energies()
         row |= {"friction_lag_error": self._lag_error(step), "min_J": 1.0}
-        return row | {"sticking_nodes": 0, "slipping_nodes": len(step.nodes)}
+        row |= {"sticking_nodes": 0, "slipping_nodes": len(step.nodes)}
+        return row | contact_columns(
+            self.case,
+            p=step.pressure,
+            v=np.full(len(step.nodes), self.sliding.velocity),
+            T=self.heat.T[step.nodes],
+            length=step.tributary_mm,
+            slipping=np.ones(len(step.nodes), dtype=bool),
+        )
 
     def _energies(self) -> dict[str, float]:
         heat = self.heat
