@@ -7,17 +7,17 @@ the rubber (by area) outside; over the slide these are averaged by contact lengt
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fem.case import Case
 from fem.case_window import ContactWindow
 
 FloatArray = NDArray[np.float64]
+Rows = Sequence[Mapping[str, Any]]
 
 #: Share of contact or rubber outside from which a run warns; less is in its log. The block starts
 #: from rest and its edges are hardly pressed, so that a little is always outside.
@@ -94,17 +94,14 @@ def rubber_columns(
     return {_column("rubber", "stretch"): float(weights[out].sum() / weights.sum())}
 
 
-def window_lines(case: Case, history: pd.DataFrame) -> list[tuple[float, str]]:
+def window_lines(case: Case, rows: Rows) -> list[tuple[float, str]]:
     """Share outside over the slide [-] and a line that says it, for each window that was left."""
-    if history.empty:
-        return []
-    distance = history["sliding_distance_mm"].to_numpy(dtype=float)
-    slid = np.diff(distance, prepend=0.0).clip(min=0.0)
-    contact = slid * history["contact_length_mm"].to_numpy()
+    slid = np.diff(_values(rows, "sliding_distance_mm"), prepend=0.0).clip(min=0.0)
+    contact = slid * _values(rows, "contact_length_mm")
     lines = []
     for section, law in _LAWS.items():
         for key, (low, high) in _limits(getattr(case, section).window).items():
-            share = _mean(history, _column(section, key), contact)
+            share = _mean(rows, _column(section, key), contact)
             lines.append(
                 (
                     share,
@@ -113,20 +110,20 @@ def window_lines(case: Case, history: pd.DataFrame) -> list[tuple[float, str]]:
                 )
             )
     if case.rubber.window is not None:
-        share = _mean(history, _column("rubber", "stretch"), slid)
+        share = _mean(rows, _column("rubber", "stretch"), slid)
         text = f"rubber: {share:.1%} of the block is stretched beyond the tests it was fitted to, "
         lines.append((share, f"{text}{case.rubber.window.largest_stretch:g}"))
     return [(share, text) for share, text in lines if share > 0.0]
 
 
-def window_warnings(case: Case, history: pd.DataFrame) -> list[str]:
+def window_warnings(case: Case, rows: Rows) -> list[str]:
     """Lines for the summary: windows that a part worth a word of the run has left."""
-    return [text for share, text in window_lines(case, history) if share >= WORTH_A_WARNING]
+    return [text for share, text in window_lines(case, rows) if share >= WORTH_A_WARNING]
 
 
-def window_notes(case: Case, history: pd.DataFrame) -> list[str]:
+def window_notes(case: Case, rows: Rows) -> list[str]:
     """Lines for the log only: windows that little of the run has left."""
-    return [text for share, text in window_lines(case, history) if share < WORTH_A_WARNING]
+    return [text for share, text in window_lines(case, rows) if share < WORTH_A_WARNING]
 
 
 def _limits(window: ContactWindow | None) -> Mapping[str, tuple[float, float]]:
@@ -144,7 +141,11 @@ def _column(section: str, key: str) -> str:
     return f"outside_{section}_{_NAMES.get(key, key)}"
 
 
-def _mean(history: pd.DataFrame, column: str, weights: FloatArray) -> float:
-    if column not in history or not weights.sum() > 0.0:
+def _mean(rows: Rows, column: str, weights: FloatArray) -> float:
+    if not weights.sum() > 0.0:
         return 0.0
-    return float(np.average(history[column].to_numpy(dtype=float), weights=weights))
+    return float(np.average(_values(rows, column), weights=weights))
+
+
+def _values(rows: Rows, column: str) -> FloatArray:
+    return np.array([row.get(column, 0.0) for row in rows], dtype=float)

@@ -16,7 +16,7 @@ import pandas as pd
 from fem.balance import balance_error, share
 from fem.case import Case
 from fem.checkpoint import Checkpoint, notes
-from fem.fitted_window import contact_columns
+from fem.fitted_window import contact_columns, window_notes, window_warnings
 from fem.heat import HeatModel
 from fem.model_parts import Progress, mesh_of
 from fem.outcome import OK, Outcome, stoppable
@@ -242,6 +242,7 @@ class _RigidRun:
             **layer_errors(history, self.model),
             "min_J": 1.0,
             "program_version": program_version(),
+            "warnings": window_warnings(self.case, self.rows),
         }
         return judged(summary)
 
@@ -287,5 +288,10 @@ def simulate_rigid(
         run.surface(),
         summary,
         run.snapshots,
-        log=[*run.log, *notes(checkpoint), *closing_lines(outcome, summary["warnings"])],
+        log=[
+            *run.log,
+            *notes(checkpoint),
+            *window_notes(case, run.rows),
+            *closing_lines(outcome, summary["warnings"]),
+        ],
     )

@@ -17,6 +17,7 @@ from fem.case import Case
 from fem.checkpoint import Checkpoint, notes
 from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState, SelfContact
 from fem.elements import Q1P0Elements
+from fem.fitted_window import window_notes, window_warnings
 from fem.heat import HeatModel
 from fem.linear_solver import linear_solver
 from fem.mechanics import BlockMechanics
@@ -288,7 +289,12 @@ def simulate(
         recorder.surface(run.state),
         summary,
         recorder.snapshots,
-        log=[*run.log, *notes(kept_in), *closing_lines(outcome, summary["warnings"])],
+        log=[
+            *run.log,
+            *notes(kept_in),
+            *window_notes(case, recorder.rows),
+            *closing_lines(outcome, summary["warnings"]),
+        ],
     )
 
 
@@ -330,6 +336,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "min_J": run.recorder.smallest_J,
         "solver_s": run.solver_seconds,
         "program_version": program_version(),
+        "warnings": window_warnings(case, run.recorder.rows),
     }
     return judged(summary)
 
