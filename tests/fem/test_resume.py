@@ -75,7 +75,7 @@ def assert_same(resumed, reference):
                 assert (one[name] == other[name]).all()
     assert list(resumed.summary) == list(reference.summary)
     for key, value in reference.summary.items():
-        if isinstance(value, str):
+        if isinstance(value, (str, list)):
             assert resumed.summary[key] == value
         elif key not in TIMES:
             assert resumed.summary[key] == pytest.approx(value, rel=1e-10, abs=1e-10), key
@@ -167,7 +167,8 @@ def test_an_interrupted_run_leaves_a_checkpoint_whatever_the_interval(tmp_path):
         raise KeyboardInterrupt
 
     simulate(case, checkpoint=path, progress=stop)
-    assert simulate(case, checkpoint=path, resume=True).log[1].startswith("resumed after 1 steps")
+    log = simulate(case, checkpoint=path, resume=True).log
+    assert any(line.startswith("resumed after 1 steps") for line in log)
 
 
 def test_an_interrupt_within_a_step_goes_back_to_the_last_finished_one(tmp_path, monkeypatch):
