@@ -31,7 +31,7 @@ class EnergyAudit:
     created : float
         Energy that friction or viscosity gave in steps in which they should have taken it.
     capped, dissipated : float
-        Friction work where the heat partition was capped, and all of it (end-of-step forces).
+        Friction work on the road where the heat partition was capped, and all of it.
     """
 
     work_in: float = 0.0
@@ -76,13 +76,10 @@ def audited(audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics) -
     )
     work = 0.5 * (audit.platen_force_x + force_x) * step.target.sweep
     work += 0.5 * (audit.platen_force_y + step.target.force) * lowered
-    slip = after.contact.slip_velocity * step.target.dt
-    # A node that has just closed moved with it only for part of the step; its force counts half.
-    friction = -0.5 * float(np.sum((before.contact.shear + after.contact.shear) * slip))
-    kinetic = 0.5 * float(np.sum(mechanics.mass[:, None] * after.mechanics.velocity**2))
-    friction += step.self_friction
-    viscous = viscous_work(step, mechanics)
     dissipated = step.power * step.target.dt
+    kinetic = 0.5 * float(np.sum(mechanics.mass[:, None] * after.mechanics.velocity**2))
+    friction = float(np.sum(dissipated)) + step.self_friction
+    viscous = viscous_work(step, mechanics)
     return EnergyAudit(
         work_in=audit.work_in + work,
         friction=audit.friction + friction,

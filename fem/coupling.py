@@ -118,7 +118,7 @@ class AcceptedStep:
     lag_error : float
         Relative change of the friction force that a further pass would bring [-].
     power : (m,) float array
-        Frictional power of the candidates [mJ/s].
+        Frictional power of the candidates, mean over the step [mJ/s].
     kappa : (m,) float array
         Share of it that heats the rubber [-].
     capped : (m,) bool array
@@ -337,9 +337,10 @@ class CoupledModel:
         penetration: float,
     ) -> AcceptedStep:
         x = result.x
-        power = np.abs(contact.shear * contact.slip_velocity)
-        kappa = self.laws.partition(contact.pressure)
-        uncapped = self.laws.partition.uncapped(contact.pressure)
+        power = friction_power(state.contact, contact)
+        # A node that has just opened made its heat under the pressure it had.
+        pressure = np.where(contact.status.active, contact.pressure, state.contact.pressure)
+        kappa, uncapped = self.laws.partition(pressure), self.laws.partition.uncapped(pressure)
         nodes, work = self._self_friction(problem, result.evaluation)
         heat = self._heat(
             state, target, x.u, contact, kappa * power,
@@ -392,14 +393,26 @@ class CoupledModel:
         power: FloatArray, *, extra_nodes: IntArray, extra_power: FloatArray,
     ) -> HeatState:  # fmt: skip
         active = contact.status.active
+        opened = ~active & (power != 0.0)
         h = self.laws.conductance.conductance(contact.pressure, np.abs(contact.slip_velocity))
         load = HeatLoad(
             dt=target.dt, sweep=target.sweep, displacement=u,
             contact_nodes=self.mechanics.candidates[active], power=power[active],
             conductance=(W_PER_M2K * h * contact.length)[active],
-            extra_nodes=extra_nodes, extra_power=extra_power,
+            extra_nodes=np.concatenate([self.mechanics.candidates[opened], extra_nodes]),
+            extra_power=np.concatenate([power[opened], extra_power]),
         )  # fmt: skip
         return self.heat.advance(state.heat, load, state.position)
+
+
+def friction_power(before: RoadContact, after: RoadContact) -> FloatArray:
+    """Frictional power of the candidates, mean over a step, (m,) [mJ/s].
+
+    The shear forces at both ends of the step, half each, times the slip in it: the trapezoidal
+    rule, by which the work of the platen is audited too. A node that closes or opens in the step
+    moves with its force only for a part of it, which this counts as half.
+    """
+    return np.asarray(-0.5 * (before.shear + after.shear) * after.slip_velocity)
 
 
 def lag_error(contact: RoadContact, mu_next: FloatArray) -> float:

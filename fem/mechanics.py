@@ -159,9 +159,7 @@ class BlockMechanics:
         self.boundary = Boundary.of(mesh.boundary, mesh.direction, mesh.points, size[mesh.boundary])
         self._number_equations()
         self._top_load = np.zeros(n)
-        edge = np.abs(np.diff(mesh.points[mesh.top, 0])) / (2.0 * mesh.length)
-        self._top_load[mesh.top[:-1]] += edge
-        self._top_load[mesh.top[1:]] += edge
+        self._top_load[mesh.top] = mesh.top_shares
 
     def _number_equations(self) -> None:
         """Equation numbers of all dofs (-1: prescribed), in a fill-reducing order."""
@@ -488,5 +486,8 @@ def inadmissible(status: ContactStatus) -> StepEvaluation:
 
 
 def platen_displacement(mesh: BlockMesh, u: FloatArray) -> float:
-    """Vertical displacement of the top, mean of its nodes, positive downwards [mm]."""
-    return float(-np.mean(u[mesh.top, 1]))
+    """Vertical displacement of the top, mean over its length, positive downwards [mm].
+
+    The force is spread over the length alike, so that its work is force times this displacement.
+    """
+    return float(-(mesh.top_shares @ u[mesh.top, 1]))

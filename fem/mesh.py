@@ -106,6 +106,12 @@ class BlockMesh:
         """Height of the block [mm]."""
         return float(np.ptp(self.points[:, 1]))
 
+    @cached_property
+    def top_shares(self) -> FloatArray:
+        """Share of the top's length that each of its nodes stands for, (m,) [-]."""
+        halves = 0.5 * np.abs(np.diff(self.points[self.top, 0])) / self.length
+        return np.asarray(np.append(halves, 0.0) + np.append(0.0, halves))
+
     @property
     def bottom_cell_height(self) -> float:
         """Largest height of the cells at the bottom [mm]."""

@@ -2,6 +2,7 @@
 
 import pytest
 
+from contact.friction import ThermalFriction
 from fem import Case, simulate
 from fem.results import Result
 from fem.trust import LIMITS, judged, warnings_of
@@ -45,14 +46,6 @@ SPOILT = {
         {"block": {"mesh": {"cells_x": 1, "cells_y": 1, "smallest_x_mm": 20, "smallest_y_mm": 8}}},
         "heat_layer_error",
     ),
-    "friction that drives a rigid block": (
-        {"friction": {"alpha": 0.0, "beta": -0.2}, "block": {"rigid": True, "mesh": "coarse"}},
-        "energy_error",
-    ),
-    "friction that drives a block": (
-        {"friction": {"law": "huemer", "alpha": 0.0, "beta": -0.2}},
-        "energy_error",
-    ),
     "heat steps longer than the contact of a road point": (
         {
             "block": {"rigid": True, "mesh": "coarse"},
@@ -75,6 +68,18 @@ def test_a_spoilt_run_says_so_in_summary_log_and_both_files(tables, key, tmp_pat
     result.write(tmp_path)
     assert lines[0] in (tmp_path / "summary.csv").read_text(encoding="utf-8")
     assert lines[0] in (tmp_path / "run.log").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+def test_friction_that_drives_the_block_is_an_error_of_the_energy(rigid, monkeypatch):
+    """The case file refuses such laws; the balance must not depend on that."""
+    coefficient = ThermalFriction.coefficient
+    monkeypatch.setattr(ThermalFriction, "coefficient", lambda *given: -coefficient(*given))
+    mesh = "coarse" if rigid else case_of().block.mesh.model_dump()
+    summary = simulate(case_of(block={"rigid": rigid, "mesh": mesh})).summary
+    assert summary["friction_coefficient"] < 0.0
+    assert summary["energy_error"] > 0.1
+    assert any(line.startswith("energy_error") for line in summary["warnings"])
 
 
 def test_warnings_are_read_again_as_a_list(tmp_path):
