@@ -377,6 +377,7 @@ def _add_compare(commands: Any) -> None:
         metavar="DIR",
         help="folder of tables and pictures (default: results/comparison)",
     )
+    _add_accept_unusual(parser)
     parser.set_defaults(command=_compare)
 
 
@@ -387,11 +388,20 @@ def _compare(arguments: argparse.Namespace) -> int:
     directory = chosen_output(arguments.output, Path("results/comparison"))
     try:
         with output_folder(directory):
-            print(write_comparison(arguments.measured, arguments.results, directory))
+            report = write_comparison(arguments.measured, arguments.results, directory)
     except DataError as error:
         print(f"treadfem: {error}", file=sys.stderr)
         return BAD_INPUT
+    _say_of(arguments.measured, report.notes, () if arguments.accept_unusual else report.unusual)
+    print(report.text)
     return DONE
+
+
+def _say_of(file: str, notes: Iterable[str], unusual: Iterable[str]) -> None:
+    """How a file of measurements was understood, and what is unusual about it."""
+    for line in notes:
+        print(f"treadfem: {file}: {line}", file=sys.stderr)
+    _warn(f"{file}: {line}" for line in unusual)
 
 
 # -- check, template ---------------------------------------------------------------------------
@@ -502,6 +512,7 @@ def _figure(arguments: argparse.Namespace) -> int:
     if arguments.measured is not None:
         try:
             measured, inputs = read_measurements(arguments.measured), [arguments.measured]
+            _say_of(arguments.measured, measured.notes, measured.unusual)
         except DataError as error:
             print(f"treadfem: {error}", file=sys.stderr)
             return BAD_INPUT

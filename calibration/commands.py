@@ -73,9 +73,10 @@ def run(arguments: argparse.Namespace) -> int:
             return NOT_CONVERGED
         outcome.write(directory)
     if not arguments.quiet:
-        unusual = () if arguments.accept_unusual else outcome.unusual
-        for line in (*outcome.notes, *unusual):
+        for line in outcome.notes:
             print(f"treadfem: {arguments.data}: {line}", file=sys.stderr)
+        for line in () if arguments.accept_unusual else outcome.unusual:
+            print(f"treadfem: warning: {arguments.data}: {line}", file=sys.stderr)
         print(outcome.text)
         print(f"results in {directory}")
     return 0

@@ -11,7 +11,6 @@ eq. (11) follows.
 from __future__ import annotations
 
 import difflib
-import tomllib
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -20,11 +19,30 @@ from typing import Any
 from calibration.errors import DataError
 from calibration.heating_rig import HeatingRig, Thermocouple
 from contact.conductance import ContactSurface
+from fem.case_errors import CaseError, describe
+from fem.case_reading import read_toml
+from materials.plausible import (
+    PRESSURE,
+    SOLID_CONDUCTIVITY,
+    SOLID_DENSITY,
+    SPECIFIC_HEAT,
+    START_TEMPERATURE,
+    judge,
+)
 from materials.thermal import ThermalProperties
 
 MATERIALS = ("rubber", "copper", "asphalt")
 _THERMAL_KEYS = ("conductivity_W_per_mK", "density_kg_per_m3", "specific_heat_kJ_per_kgK")
 _PLACE_KEYS = ("x_mm", "y_mm")
+_LARGEST = 1e300
+#: What the keys of a rig are, for their physical ranges.
+_QUANTITIES = {
+    "ambient_C": START_TEMPERATURE,
+    "pressure_N_per_mm2": PRESSURE,
+    "conductivity_W_per_mK": SOLID_CONDUCTIVITY,
+    "density_kg_per_m3": SOLID_DENSITY,
+    "specific_heat_kJ_per_kgK": SPECIFIC_HEAT,
+}
 
 
 def read_heating_rig(path: str | Path) -> HeatingRig:
@@ -76,12 +94,9 @@ def read_contact_surface(path: str | Path) -> ContactSurface | None:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise DataError(file=str(path), found=reason, expected="a readable TOML file") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise DataError(file=str(path), found=str(error), expected="a TOML file") from None
+        return read_toml(path)
+    except CaseError as error:
+        raise DataError(file=error.file, found=error.found, expected=error.expected) from None
 
 
 def _table(path: Path, parent: Mapping[str, Any], key: str, name: str) -> dict[str, Any]:
@@ -101,9 +116,15 @@ def _check_keys(path: Path, table: Mapping[str, Any], allowed: list[str], name: 
 
 
 def _number(path: Path, value: object, name: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise DataError(file=str(path), column=name, found=repr(value), expected="a number")
-    return float(value)
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not number or not abs(value) < _LARGEST:  # type: ignore[arg-type]
+        raise DataError(file=str(path), column=name, found=describe(value), expected="a number")
+    key = name.split()[-1]
+    finding = judge(value, _QUANTITIES[key]) if key in _QUANTITIES else None  # type: ignore[arg-type]
+    if finding is not None and finding.impossible:
+        found = describe(value) + (f", which {finding.likely}" if finding.likely else "")
+        raise DataError(file=str(path), column=name, found=found, expected=finding.expected)
+    return float(value)  # type: ignore[arg-type]
 
 
 def _numbers(

@@ -2,6 +2,7 @@
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import spearmanr
 
 from calibration.errors import DataError
 from calibration.stress_models import Kinematics
@@ -13,6 +14,7 @@ Array = NDArray[np.float64]
 
 STRESS = "nominal_stress_N_per_mm2"
 _AT_REST = 2e-3  # strain below which a row is undeformed
+_SURELY = 0.9  # rank correlation that scatter does not bring about
 _PRELOAD = 0.05  # share of the largest stress at rest that is worth a word
 
 
@@ -24,7 +26,23 @@ def check_points(source: Table, stretch: Array, stress: Array, mode: NDArray[np.
         i = int(np.flatnonzero(pulled)[0])
         found = f"{stretch[i]:g} with the tensile stress {stress[i]:g} N/mm^2"
         source.refuse_at(i, "stretch", found, "a stretch (1 = undeformed); these look like strains")
+    _refuse_amounts_of_compression(source, stretch, stress, mode)
     _refuse_percent(source, stretch, stress, mode)
+
+
+def _refuse_amounts_of_compression(
+    source: Table, stretch: Array, stress: Array, mode: NDArray[np.str_]
+) -> None:
+    """Compression given as 0.1, 0.2, 0.3 has a stress that grows towards 1, where it should end."""
+    for name in np.unique(mode):
+        here = np.flatnonzero((mode == name) & (stretch < 0.95) & (stress < 0.0))
+        if np.unique(stretch[here]).size > 2:
+            rising = spearmanr(stretch[here], -stress[here]).statistic
+            if rising > _SURELY:
+                i = int(here[np.argmin(stretch[here])])
+                found = f"{stretch[i]:g} with less compressive stress than nearer to 1"
+                expected = "a stretch (1 = undeformed); this looks like 1 - stretch"
+                source.refuse_at(i, "stretch", found, expected)
 
 
 def _refuse_percent(source: Table, stretch: Array, stress: Array, mode: NDArray[np.str_]) -> None:

@@ -185,7 +185,7 @@ def read_table(source: str | Path | pd.DataFrame, columns: Sequence[str]) -> Tab
 def _read_csv(path: Path) -> Table:
     content = read_bytes(path)
     cells = read_cells(content, str(path))
-    frame = pd.DataFrame(cells.columns, dtype=str)
+    frame = pd.DataFrame(cells.columns, dtype=object)
     frame.attrs["header_row"] = cells.header_row
     return Table(
         frame=frame,

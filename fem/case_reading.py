@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import stat
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -49,6 +50,9 @@ def read_toml(path: Path, *, named_by: tuple[str, str] | None = None) -> Table:
     file, key = named_by or (str(path), "file")
     shown = "" if named_by is None else f"{describe(str(path))}, which is "
     try:
+        kind = path.stat().st_mode
+        if not stat.S_ISREG(kind) and not stat.S_ISDIR(kind):
+            _raise(file, key, f"{shown}a device or a pipe", "a readable TOML file")
         text = path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError:
         _raise(file, key, f"{shown}not UTF-8 text", "a TOML file")
@@ -56,6 +60,8 @@ def read_toml(path: Path, *, named_by: tuple[str, str] | None = None) -> Table:
         _raise(file, key, f"{shown}no such file", "a readable TOML file")
     except IsADirectoryError:
         _raise(file, key, f"{shown}a directory", "a readable TOML file")
+    except CaseError:
+        raise
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         _raise(file, key, f"{shown}unreadable ({reason})", "a readable TOML file")

@@ -221,7 +221,8 @@ class _RigidRun:
     def summary(self, outcome: Outcome) -> dict[str, Any]:
         """Scalars of the run."""
         history = pd.DataFrame(self.rows)
-        summary: dict[str, Any] = {"status": outcome.status}
+        warnings = list(self.case.warnings)
+        summary: dict[str, Any] = {"status": outcome.status, "warnings": warnings}
         if outcome.reason:
             summary |= {"reason": outcome.reason, "advice": outcome.advice}
         summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))

@@ -312,7 +312,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
     """Scalars of a run; forces and lengths are means over the sliding phase at full speed."""
     history = pd.DataFrame(run.recorder.rows)
     mechanics, heat, case = run.model.mechanics, run.state.heat, run.case
-    summary: dict[str, Any] = {"status": outcome.status}
+    summary: dict[str, Any] = {"status": outcome.status, "warnings": list(case.warnings)}
     if outcome.reason:
         summary |= {"reason": outcome.reason, "advice": outcome.advice}
     summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))

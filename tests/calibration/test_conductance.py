@@ -224,11 +224,11 @@ def test_rig_file_states_what_differs_from_the_defaults(tmp_path):
     ("text", "parts"),
     [
         ("", ["[rig]", "found nothing", "a table [rig]"]),
-        ("[rig", ["a TOML file"]),
+        ("[rig", ["expected TOML"]),
         ("[rig]\nblock_heigth_mm = 8", ["block_heigth_mm", "expected block_height_mm"]),
-        ("[rig]\nblock_height_mm = 'tall'", ["block_height_mm", "'tall'", "a number"]),
+        ("[rig]\nblock_height_mm = 'tall'", ["block_height_mm", '"tall"', "a number"]),
         ("[rig]\nblock_height_mm = -8", ["block_height_mm = -8.0", "above 0"]),
-        ("[rig.rubber]\nconductivity_W_per_mK = 1.0", ["density_kg_per_m3", "None", "a number"]),
+        ("[rig.rubber]\nconductivity_W_per_mK = 1.0", ["density_kg_per_m3", "nothing", "a number"]),
         ("[rig.thermocouples]\nC1 = 4.0", ["C1", "4.0", "a table"]),
     ],
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
@@ -15,9 +16,31 @@ from validation.measured.comparison import Comparison, compare, simulated_runs
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
 from validation.measured.measurements import read_measurements
 
+#: Tests without a simulation that are named.
+_MOST_NAMES = 20
 
-def write_comparison(measured: str | Path, results: str | Path, directory: str | Path) -> str:
-    """Compare, write the tables and pictures into a folder, and return a text to print.
+
+@dataclass(frozen=True, kw_only=True)
+class Report:
+    """What a comparison has to say.
+
+    Attributes
+    ----------
+    text : str
+        Statistics to print.
+    notes : tuple of str
+        How the measurements were understood and compared.
+    unusual : tuple of str
+        Numbers of the measurements outside their usual range.
+    """
+
+    text: str
+    notes: tuple[str, ...]
+    unusual: tuple[str, ...]
+
+
+def write_comparison(measured: str | Path, results: str | Path, directory: str | Path) -> Report:
+    """Compare, write the tables and pictures into a folder, and return what is to be printed.
 
     Parameters
     ----------
@@ -27,7 +50,8 @@ def write_comparison(measured: str | Path, results: str | Path, directory: str |
         Folder of a sweep or of a run.
     directory : str or Path
         For `comparison.csv`, `statistics.csv`, `measured.csv` (T_max and A_T of each test),
-        `comparison.png` and, for measured profiles, `profiles.png`.
+        `comparison.log` (what is said), `comparison.png` and, for measured profiles,
+        `profiles.png`.
 
     Raises
     ------
@@ -43,6 +67,10 @@ def write_comparison(measured: str | Path, results: str | Path, directory: str |
         "statistics.csv": comparison.statistics,
         "measured.csv": measurements.points.drop(columns="row"),
     }
+    said = (*measurements.notes, *comparison.notes)
+    text = _text(comparison, directory)
+    lines = [*said, *(f"warning: {line}" for line in measurements.unusual), text]
+    write_text(directory / "comparison.log", "\n".join(lines) + "\n")
     for name, table in tables.items():
         write_text(
             directory / name, spreadsheet.table(table).to_csv(index=False, lineterminator="\n")
@@ -50,13 +78,15 @@ def write_comparison(measured: str | Path, results: str | Path, directory: str |
     save(draw_comparison(comparison), directory / "comparison.png")
     if measurements.profiles:
         save(draw_profiles(measurements, runs), directory / "profiles.png")
-    return _text(comparison, directory)
+    return Report(text=text, notes=said, unusual=measurements.unusual)
 
 
 def _text(comparison: Comparison, directory: Path) -> str:
     lines = ["simulated minus measured:", _shown(comparison.statistics)]
     if comparison.unmatched:
-        lines.append(f"without a simulation: {', '.join(comparison.unmatched)}")
+        names = ", ".join(comparison.unmatched[:_MOST_NAMES])
+        others = len(comparison.unmatched) - _MOST_NAMES
+        lines.append(f"without a simulation: {names}" + (f" and {others} more" * (others > 0)))
     return "\n".join([*lines, f"tables and pictures in {directory}"])
 
 

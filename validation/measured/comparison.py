@@ -23,16 +23,29 @@ from fem.results import (
     read_summary,
     read_table,
 )
+from validation.measured.matching import (
+    START_TOLERANCE_K,
+    TOLERANCES,
+    IntArray,
+    first_ambiguous,
+    matched,
+)
 from validation.measured.measurements import QUANTITIES, Measurements
 
-_PRESSURE, _VELOCITY = "loading.mean_pressure_N_per_mm2", "loading.velocity_mm_per_s"
-#: Measured conditions and how far a simulation may be from them [-]. The mean contact pressure is a
-#: result, which varies with friction; the others are inputs.
-TOLERANCES = {"p_N_per_mm2": 0.15, "mean_pressure_N_per_mm2": 0.02, "v_mm_per_s": 0.02}
+_PRESSURE, _VELOCITY, _START = (
+    "loading.mean_pressure_N_per_mm2",
+    "loading.velocity_mm_per_s",
+    "heat.ambient_C",
+)
+#: Share of the block's length by which a profile may reach beyond its corners, and which it has
+#: to cover at least [-].
+_OVERHANG, _LEAST_COVERED = 0.05, 0.1
 #: Limits of the temperature error that are counted: the accuracy of the measurement (0.5 to 1 K)
 #: and what the paper calls sufficient (section 5.2) [K].
 LIMITS_K = (0.5, 1.0, 2.0)
 ALL = "all"
+#: Columns of words that repeat from row to row.
+_WORDS = ("case", "variant", "compound", "law")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,11 +60,14 @@ class Comparison:
         Bias, RMSE and shares within limits, per variant of the simulation and quantity.
     unmatched : list of str
         Tests without a simulation.
+    notes : list of str
+        What a reader of the table has to know.
     """
 
     table: pd.DataFrame
     statistics: pd.DataFrame
     unmatched: list[str]
+    notes: list[str]
 
 
 def simulated_runs(directory: str | Path) -> pd.DataFrame:
@@ -60,8 +76,8 @@ def simulated_runs(directory: str | Path) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        `case, folder, variant` (what tells simulations apart beside pressure and velocity),
-        `compound, law`, the conditions of `TOLERANCES`, and `QUANTITIES`.
+        `case, folder, variant` (what tells simulations apart beside the conditions),
+        `compound, law`, the conditions of `TOLERANCES`, `T_0_C`, `length_mm` and `QUANTITIES`.
 
     Raises
     ------
@@ -125,18 +141,20 @@ def _of_run(case: Case, summary: Mapping[str, Any]) -> dict[str, Any]:
         "p_N_per_mm2": np.nan if contact_pressure is None else contact_pressure,
         "mean_pressure_N_per_mm2": case.loading.mean_pressure_N_per_mm2,
         "v_mm_per_s": abs(case.loading.velocity_mm_per_s),
+        "T_0_C": case.heat.ambient_C,
+        "length_mm": case.block.length_mm,
         **{key: np.nan if summary[key] is None else summary[key] for key in QUANTITIES},
     }
 
 
 def _variants(cases: list[Case]) -> list[str]:
-    """What differs between the cases beside pressure, velocity and output, in words."""
+    """What differs between the cases beside the conditions and the output, in words."""
     flat = [_flat(case.to_dict()) for case in cases]
     shared = [key for key in flat[0] if all(key in other for other in flat)]
     told_apart = [
         key
         for key in shared
-        if key not in (_PRESSURE, _VELOCITY)
+        if key not in (_PRESSURE, _VELOCITY, _START)
         and not key.startswith("output.")
         and any(other[key] != flat[0][key] for other in flat)
     ]
@@ -156,26 +174,6 @@ def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return flat
 
 
-def matching(point: Mapping[str, Any], runs: pd.DataFrame) -> pd.DataFrame:
-    """Simulations of a measured test: of each variant the one nearest in contact pressure.
-
-    What the test does not state (empty or NaN) excludes nothing.
-    """
-    fits = np.ones(len(runs), dtype=bool)
-    for name in ("compound", "law"):
-        if point[name]:
-            fits &= (runs[name] == point[name]).to_numpy()
-    for name, tolerance in TOLERANCES.items():
-        if np.isfinite(point[name]):
-            distance = (runs[name] / point[name] - 1.0).abs().to_numpy()
-            fits &= distance <= tolerance
-    found = runs[fits]
-    if np.isfinite(point["p_N_per_mm2"]) and len(found):
-        distance = (found["p_N_per_mm2"] - point["p_N_per_mm2"]).abs()
-        found = found.loc[distance.groupby([found["variant"], found["v_mm_per_s"]]).idxmin()]
-    return found
-
-
 def compare(measurements: Measurements, runs: pd.DataFrame) -> Comparison:
     """Put measured and simulated values beside each other.
 
@@ -191,37 +189,43 @@ def compare(measurements: Measurements, runs: pd.DataFrame) -> Comparison:
     DataError
         If nothing belongs together, or a test fits several conditions it does not state.
     """
-    rows: list[dict[str, Any]] = []
-    unmatched = []
-    for point in measurements.points.to_dict("records"):
-        found = matching({str(key): value for key, value in point.items()}, runs)
-        _check_unique(found, point, measurements.file)
-        if found.empty:
-            unmatched.append(str(point["run"]))
-        for run in found.to_dict("records"):
-            rows += [
-                _row(point, run, quantity)
-                for quantity in QUANTITIES
-                if np.isfinite(point[quantity]) and np.isfinite(run[quantity])
-            ]
-    if not rows:
+    points = measurements.points
+    tests, numbers = matched(points, runs)
+    found = runs.iloc[numbers]
+    _check_unique(measurements, tests, found)
+    _check_places(measurements, tests, found)
+    table = _table(points.iloc[tests], found)
+    if table.empty:
         raise DataError(
             file=measurements.file, found="no test that was simulated", expected=_offer(runs)
         )
-    table = pd.DataFrame(rows)
-    return Comparison(table=table, statistics=statistics(table), unmatched=unmatched)
+    apart = float(np.max(np.abs(table["T_0_measured_C"] - table["T_0_simulated_C"])))
+    notes = []
+    if apart > 0.0:
+        notes.append(
+            f"simulations start up to {apart:.3g} K from the T_0_C of the tests: the errors of "
+            "T_max_C are those of its rise"
+        )
+    alone = np.ones(len(points), dtype=bool)
+    alone[tests] = False
+    unmatched = points["run"].to_numpy()[alone]
+    return Comparison(
+        table=table, statistics=statistics(table), unmatched=unmatched.tolist(), notes=notes
+    )
 
 
-def _check_unique(found: pd.DataFrame, point: Mapping[Any, Any], file: str) -> None:
+def _check_unique(measurements: Measurements, tests: IntArray, found: pd.DataFrame) -> None:
     """Refuse a test that leaves open which of several velocities or pressures it had."""
-    doubled = found[found["variant"].duplicated(keep=False)]
-    if doubled.empty:
+    at = first_ambiguous(measurements.points, tests, found)
+    if at is None:
         return
+    point, own = measurements.points.iloc[at], found[tests == at]
+    doubled = own[own["variant"].duplicated(keep=False)]
     velocity = doubled.groupby("variant")["v_mm_per_s"].nunique().max() > 1
     column = "v_mm_per_s" if velocity else "p_N_per_mm2"
     values = ", ".join(f"{value:.4g}" for value in sorted(set(doubled[column])))
     raise DataError(
-        file=file,
+        file=measurements.file,
         row=int(point["row"]),
         column=column,
         found=f"test {point['run']} that fits several simulations",
@@ -229,37 +233,70 @@ def _check_unique(found: pd.DataFrame, point: Mapping[Any, Any], file: str) -> N
     )
 
 
+def _check_places(measurements: Measurements, tests: IntArray, found: pd.DataFrame) -> None:
+    """Refuse a profile that does not lie on the bottom of the block that was simulated."""
+    if not measurements.profiles:
+        return
+    for at, length in dict(zip(tests.tolist(), found["length_mm"], strict=True)).items():
+        X = measurements.profiles[at].X_mm
+        beyond = (-_OVERHANG * length > X) | ((1.0 + _OVERHANG) * length < X)
+        if not beyond.any() and np.ptp(X) >= _LEAST_COVERED * length:
+            continue
+        i = int(np.argmax(beyond)) if beyond.any() else len(X) - 1
+        likely = " (looks like metres)" if 0.5 < 1e3 * np.ptp(X) / length < 2.0 else ""
+        raise DataError(
+            file=measurements.file,
+            row=int(measurements.profiles[at].rows[i]),
+            column="x_mm",
+            found=f"{X[i]:g} in a profile from {X[0]:g} to {X[-1]:g}{likely}",
+            expected=f"a profile along the bottom of the block, 0 to {length:g} mm",
+        )
+
+
 def _offer(runs: pd.DataFrame) -> str:
     compounds = ", ".join(sorted(set(runs["compound"]) - {""})) or "(constants)"
     velocities = ", ".join(f"{v:g}" for v in sorted(set(runs["v_mm_per_s"])))
     pressures = ", ".join(f"{p:.3g}" for p in sorted(set(runs["p_N_per_mm2"].round(3))))
+    starts = ", ".join(f"{T:g}" for T in sorted(set(runs["T_0_C"])))
     return (
         f"one of the compounds {compounds}, v_mm_per_s {velocities}, p_N_per_mm2 {pressures} "
-        f"(within {TOLERANCES['p_N_per_mm2']:.0%})"
+        f"(within {TOLERANCES['p_N_per_mm2']:.0%}), T_0_C {starts} (within {START_TOLERANCE_K:g} K)"
     )
 
 
-def _row(point: Mapping[Any, Any], run: Mapping[Any, Any], quantity: str) -> dict[str, Any]:
-    measured, simulated = float(point[quantity]), float(run[quantity])
-    error = simulated - measured
-    # A temperature has no natural zero; its error is related to the measured rise.
-    reference = measured - point["T_0_C"] if quantity == "T_max_C" else measured
-    return {
-        "run": point["run"],
-        "case": run["case"],
-        "variant": run["variant"],
-        "compound": run["compound"],
-        "law": run["law"],
-        "v_mm_per_s": run["v_mm_per_s"],
-        "p_measured_N_per_mm2": point["p_N_per_mm2"],
-        "p_simulated_N_per_mm2": run["p_N_per_mm2"],
-        "quantity": quantity,
-        "unit": QUANTITIES[quantity],
-        "measured": measured,
-        "simulated": simulated,
-        "error": error,
-        "relative_error": error / reference if reference else np.nan,
-    }
+def _table(points: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
+    """The rows of a comparison for tests and simulations that belong together, pair by pair."""
+    measured, simulated = (part[list(QUANTITIES)].to_numpy(dtype=float) for part in (points, runs))
+    at, quantity = np.nonzero(np.isfinite(measured) & np.isfinite(simulated))
+    measured, simulated = measured[at, quantity], simulated[at, quantity]
+    own = points.iloc[at].reset_index(drop=True)
+    run = runs.iloc[at].reset_index(drop=True).astype(dict.fromkeys(_WORDS, "category"))
+    # A temperature has no natural zero: what is compared, and related to, is the rise.
+    is_T = quantity == list(QUANTITIES).index("T_max_C")
+    reference = measured - np.where(is_T, own["T_0_C"], 0.0)
+    error = simulated - np.where(is_T, run["T_0_C"], 0.0) - reference
+    return pd.DataFrame(
+        {
+            "run": own["run"],
+            "case": run["case"],
+            "variant": run["variant"],
+            "compound": run["compound"],
+            "law": run["law"],
+            "v_mm_per_s": run["v_mm_per_s"],
+            "p_measured_N_per_mm2": own["p_N_per_mm2"],
+            "p_simulated_N_per_mm2": run["p_N_per_mm2"],
+            "T_0_measured_C": own["T_0_C"],
+            "T_0_simulated_C": run["T_0_C"],
+            "quantity": pd.Categorical(np.array(list(QUANTITIES))[quantity]),
+            "unit": pd.Categorical(np.array(list(QUANTITIES.values()))[quantity]),
+            "measured": measured,
+            "simulated": simulated,
+            "error": error,
+            "relative_error": np.divide(
+                error, reference, out=np.full(error.size, np.nan), where=reference != 0.0
+            ),
+        }
+    )
 
 
 def statistics(table: pd.DataFrame) -> pd.DataFrame:
@@ -276,7 +313,8 @@ def statistics(table: pd.DataFrame) -> pd.DataFrame:
         A row per variant and quantity, and over all variants if there are several. The errors are
         simulated minus measured, in the unit of the quantity; shares and relative errors in 1.
     """
-    groups = [(variant, part) for variant, part in table.groupby("variant", sort=False)]
+    by_variant = table.groupby("variant", sort=False, observed=True)
+    groups = [(str(variant), part) for variant, part in by_variant]
     if len(groups) > 1:
         groups.append((ALL, table))
     return pd.DataFrame(

@@ -20,7 +20,8 @@ from validation.drawing.style import (
     new_figure,
     styled,
 )
-from validation.measured.comparison import LIMITS_K, Comparison, matching, surface_of
+from validation.measured.comparison import LIMITS_K, Comparison, surface_of
+from validation.measured.matching import matched
 from validation.measured.measurements import QUANTITIES, Measurements, Profile
 
 _LABELS = {
@@ -31,6 +32,8 @@ _LABELS = {
 _COLUMNS = 3
 #: More profiles than these make no readable picture; their numbers are in the table.
 MOST_PROFILES = 9
+#: More points than these make no better picture.
+MOST_POINTS = 20_000
 
 
 @styled
@@ -50,7 +53,10 @@ def draw_comparison(comparison: Comparison) -> Figure:
         for i, variant in enumerate(variants):
             part = own[own["variant"] == variant]
             look = {"marker": MARKERS[i % len(MARKERS)], "color": CURVES[i % len(CURVES)]}
-            axes.plot(part["measured"], part["simulated"], ls="", mfc="none", label=variant, **look)
+            every = -(-len(part) // MOST_POINTS) or 1
+            label = variant if every == 1 else f"{variant} (1 in {every})"
+            shown = part.iloc[::every]
+            axes.plot(shown["measured"], shown["simulated"], ls="", mfc="none", label=label, **look)
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2)
     return figure
@@ -76,13 +82,11 @@ def _draw_agreement(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
 @styled
 def draw_profiles(measurements: Measurements, runs: pd.DataFrame) -> Figure:
     """Draw measured profiles (points) and those of their simulations (lines), a panel per test."""
-    pairs = [
-        (profile, matching({str(key): value for key, value in point.items()}, runs))
-        for profile, point in zip(
-            measurements.profiles, measurements.points.to_dict("records"), strict=True
-        )
+    tests, numbers = matched(measurements.points, runs)
+    shown = [
+        (measurements.profiles[test], runs.iloc[numbers[tests == test]])
+        for test in np.unique(tests)[:MOST_PROFILES]
     ]
-    shown = [pair for pair in pairs if len(pair[1])][:MOST_PROFILES]
     lines = -(-len(shown) // _COLUMNS)
     figure = new_figure(PAGE_WIDTH, 22.0 + 52.0 * lines)
     panels = figure.subplots(lines, _COLUMNS, squeeze=False)

@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.style import BLACK
-from validation.measured.comparison import TOLERANCES
 from validation.measured.comparison_figures import draw_measured_profile
+from validation.measured.matching import TOLERANCES
 from validation.measured.measurements import Measurements, Profile
 
 _PRESSURE = "p_N_per_mm2"

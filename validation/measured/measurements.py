@@ -12,7 +12,7 @@ and ``T_0_C``, the temperature before the sliding.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -52,11 +52,14 @@ class Profile:
         Position from the trailing to the leading corner [mm].
     T_C : (n,) array
         Temperature [deg C].
+    rows : (n,) int array
+        Their rows in the file.
     """
 
     run: str
     X_mm: FloatArray
     T_C: FloatArray
+    rows: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,11 +75,15 @@ class Measurements:
         In the order of `points`; empty for a file without profiles.
     file : str
         Name of the file.
+    notes, unusual : tuple of str
+        How the file was understood, and its numbers outside their usual range.
     """
 
     points: pd.DataFrame
     profiles: list[Profile]
     file: str
+    notes: tuple[str, ...] = ()
+    unusual: tuple[str, ...] = ()
 
 
 def read_measurements(source: str | Path | pd.DataFrame) -> Measurements:
@@ -88,7 +95,8 @@ def read_measurements(source: str | Path | pd.DataFrame) -> Measurements:
         With file, row, column, what was found and what was expected, in one line.
     """
     table = read_table(source, ())
-    return _profiles(table) if table.has("x_mm") else _points(table)
+    found = _profiles(table) if table.has("x_mm") else _points(table)
+    return replace(found, notes=tuple(table.notes), unusual=tuple(table.unusual))
 
 
 def _points(table: Table) -> Measurements:
@@ -119,14 +127,19 @@ def _profiles(table: Table) -> Measurements:
     rows = _conditions(table)
     if (rows["run"] == "").any():
         table.refuse_at(int(np.argmax(rows["run"] == "")), "run", "nothing", "the name of the test")
-    points, profiles = [], []
-    for run, own in rows.groupby("run", sort=False):
-        index = own.index.to_numpy()
-        _check_profile(table, index, X[index], own)
-        profile = Profile(run=str(run), X_mm=X[index], T_C=T[index])
-        profiles.append(profile)
-        points.append(own.iloc[0].to_dict() | evaluated(profile, float(own["T_0_C"].iloc[0])))
-    return Measurements(points=pd.DataFrame(points), profiles=profiles, file=table.file)
+    code, names = pd.factorize(rows["run"])
+    order = np.argsort(code, kind="stable")
+    runs = np.split(order, np.flatnonzero(np.diff(code[order])) + 1)
+    first = np.array([index[0] for index in runs])
+    _check_conditions(table, rows, first[code])
+    points = rows.iloc[first].reset_index(drop=True)
+    profiles = []
+    for name, index in zip(names, runs, strict=True):
+        _check_profile(table, index, X[index], str(name))
+        profiles.append(Profile(run=str(name), X_mm=X[index], T_C=T[index], rows=table.rows[index]))
+    values = [evaluated(p, T_0) for p, T_0 in zip(profiles, points["T_0_C"], strict=True)]
+    points[list(values[0])] = pd.DataFrame(values)
+    return Measurements(points=points, profiles=profiles, file=table.file)
 
 
 def evaluated(profile: Profile, T_0_C: float = START_C) -> dict[str, float]:
@@ -137,10 +150,7 @@ def evaluated(profile: Profile, T_0_C: float = START_C) -> dict[str, float]:
     }
 
 
-def _check_profile(
-    table: Table, index: NDArray[np.int64], X: FloatArray, own: pd.DataFrame
-) -> None:
-    run = own["run"].iloc[0]
+def _check_profile(table: Table, index: NDArray[np.intp], X: FloatArray, run: str) -> None:
     if len(index) < 2:
         table.refuse_at(int(index[0]), "x_mm", f"1 point of run {run}", "at least 2 points")
     falling = np.flatnonzero(np.diff(X) <= 0.0)
@@ -152,20 +162,24 @@ def _check_profile(
             f"{X[at + 1]:g} after {X[at]:g} in run {run}",
             "x_mm to increase from the trailing to the leading corner",
         )
-    for column in own.columns.drop("row"):
-        values = own[column]
-        differs = ~((values == values.iloc[0]) | (values.isna() & values.isna().iloc[0]))
+
+
+def _check_conditions(table: Table, rows: pd.DataFrame, first: NDArray[np.intp]) -> None:
+    """Refuse a condition that changes within a run; `first` is the first row of each row's run."""
+    for column in rows.columns.drop("row"):
+        values = rows[column].to_numpy()
+        begin = values[first]
+        differs = (values != begin) & ~(pd.isna(values) & pd.isna(begin))
         if differs.any():
             at = int(np.argmax(differs))
-            found = f"{values.iloc[at]} after {values.iloc[0]} in run {run}"
-            table.refuse_at(int(index[at]), column, found, "one value per run")
+            found = f"{values[at]} after {begin[at]} in run {rows['run'].iloc[at]}"
+            table.refuse_at(at, column, found, "one value per run")
 
 
 def _conditions(table: Table) -> pd.DataFrame:
     """Every known column, checked; what the file does not state is empty or NaN."""
     columns: dict[str, object] = {
-        name: table.frame[name].fillna("").astype(str).str.strip() if table.has(name) else ""
-        for name in _WORDS
+        name: _words(table.frame[name]) if table.has(name) else "" for name in _WORDS
     }
     frame = pd.DataFrame(columns, index=range(len(table)))
     unknown = ~frame["law"].isin(("", *LAWS)).to_numpy()
@@ -175,9 +189,17 @@ def _conditions(table: Table) -> pd.DataFrame:
         table.refuse_at(index, "law", repr(frame["law"].iloc[index]), expected)
     for name in _NUMBERS:
         frame[name] = _optional_numbers(table, name)
-    frame["T_0_C"] = frame["T_0_C"].fillna(START_C)
+    unstated = int(frame["T_0_C"].isna().sum())
+    if unstated:
+        table.notes.append(f"T_0_C not stated in {unstated} rows: {START_C:g} deg C assumed")
+        frame["T_0_C"] = frame["T_0_C"].fillna(START_C)
     frame["row"] = table.rows
     return frame
+
+
+def _words(entries: pd.Series) -> list[str]:
+    """The entries as words without surrounding spaces; empty where there is none."""
+    return [str(entry).strip() for entry in entries.fillna("")]
 
 
 def _optional_numbers(table: Table, column: str) -> FloatArray:
@@ -185,7 +207,7 @@ def _optional_numbers(table: Table, column: str) -> FloatArray:
     values = np.full(len(table), np.nan)
     if table.has(column):
         entries = table.frame[column]
-        stated = (entries.notna() & (entries.astype(str).str.strip() != "")).to_numpy()
+        stated = np.array([entry != "" for entry in _words(entries)], dtype=bool)
         if stated.any():
             own = table.select(stated)
             numbers = own.numbers(column)

@@ -16,8 +16,9 @@ from fem.results import Result
 from tests.made_up_result import made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
-from validation.measured.comparison import compare, matching, simulated_runs, statistics
+from validation.measured.comparison import compare, simulated_runs, statistics
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
+from validation.measured.matching import matching
 from validation.measured.measurements import read_measurements
 from validation.paper import fig11, fig12
 from validation.sweeps.study_runs import StudyRun
@@ -36,6 +37,8 @@ def simulated(**changes: object) -> dict[str, object]:
         "p_N_per_mm2": 0.3,
         "mean_pressure_N_per_mm2": 0.25,
         "v_mm_per_s": 50.0,
+        "T_0_C": 20.0,
+        "length_mm": 20.0,
         "T_max_C": 30.0,
         "A_T_K_mm": 150.0,
         "friction_coefficient": 0.9,
@@ -213,6 +216,7 @@ def test_command_writes_tables_and_pictures_and_prints_the_statistics(results, t
     assert "nan" not in printed
     assert {file.name for file in (tmp_path / "out").iterdir()} == {
         "comparison.csv",
+        "comparison.log",
         "statistics.csv",
         "measured.csv",
         "comparison.png",
@@ -313,7 +317,7 @@ def test_figure_12_shows_measured_points_in_the_panel_of_their_velocity():
 )
 def test_wrong_measured_option_gives_one_line(number, file, words, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    Path("measured.csv").write_text("T_max_C\n30\n")
+    Path("measured.csv").write_text("T_max_C,T_0_C\n30,20\n")
     assert treadfem.main(["figure", number, "--measured", file, "-o", "out"]) == 2
     errors = capsys.readouterr().err
     assert words in errors

@@ -1,0 +1,88 @@
+"""Which simulations belong to which measured tests: the same conditions, nearest in pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.intp]
+
+#: Measured conditions and how far a simulation may be from them [-]. The mean contact pressure is a
+#: result, which varies with friction; the others are inputs.
+TOLERANCES = {"p_N_per_mm2": 0.15, "mean_pressure_N_per_mm2": 0.02, "v_mm_per_s": 0.02}
+#: How far the start temperatures may be apart [K]: within it rises are compared, beyond it rubber
+#: and friction are others.
+START_TOLERANCE_K = 5.0
+_PRESSURE = "p_N_per_mm2"
+_WORDS = ("compound", "law")
+#: Tests that are matched at a time.
+_BATCH = 20_000
+
+
+def matching(point: Mapping[str, Any], runs: pd.DataFrame) -> pd.DataFrame:
+    """Simulations of a measured test: of each variant the one nearest in contact pressure.
+
+    What the test does not state (empty or NaN) excludes nothing.
+    """
+    return runs.iloc[matched(pd.DataFrame([point]), runs)[1]]
+
+
+def matched(points: pd.DataFrame, runs: pd.DataFrame) -> tuple[IntArray, IntArray]:
+    """Positions of the tests (k,) and of their simulations (k,), test by test."""
+    tests, found = [np.empty(0, dtype=np.intp)], [np.empty(0, dtype=np.intp)]
+    for first in range(0, len(points), _BATCH):
+        test, run = np.nonzero(_fitting(points.iloc[first : first + _BATCH], runs))
+        tests.append(first + test)
+        found.append(run)
+    return np.concatenate(tests), np.concatenate(found)
+
+
+def _fitting(points: pd.DataFrame, runs: pd.DataFrame) -> BoolArray:
+    """Whether a simulation (column) belongs to a test (row)."""
+    fits = np.ones((len(points), len(runs)), dtype=bool)
+    for name in _WORDS:
+        stated, numbers = points[name], {word: i for i, word in enumerate(set(runs[name]))}
+        code = stated.map(numbers).fillna(-1).to_numpy(dtype=int)[:, None]
+        own = runs[name].map(numbers).to_numpy(dtype=int)
+        fits &= (code == own) | (stated == "").to_numpy()[:, None]
+    for name, tolerance in TOLERANCES.items():
+        value = points[name].to_numpy(dtype=float)[:, None]
+        distance = np.abs(runs[name].to_numpy(dtype=float) / value - 1.0)
+        fits &= (distance <= tolerance) | np.isnan(value)
+    start = points["T_0_C"].to_numpy(dtype=float)[:, None]
+    apart = np.abs(runs["T_0_C"].to_numpy(dtype=float) - start)
+    fits &= apart <= START_TOLERANCE_K
+    for columns in runs.reset_index().groupby("variant").indices.values():
+        nearest = np.where(fits[:, columns], apart[:, columns], np.inf).min(axis=1)
+        fits[:, columns] &= apart[:, columns] <= nearest[:, None]
+    return _nearest_in_pressure(fits, points, runs)
+
+
+def _nearest_in_pressure(fits: BoolArray, points: pd.DataFrame, runs: pd.DataFrame) -> BoolArray:
+    """For tests with a pressure the one simulation of each variant and velocity that is nearest."""
+    pressure = points[_PRESSURE].to_numpy(dtype=float)[:, None]
+    with_pressure = np.isfinite(pressure[:, 0])
+    for columns in runs.reset_index().groupby(["variant", "v_mm_per_s"]).indices.values():
+        if len(columns) < 2:
+            continue
+        own = fits[:, columns]
+        distance = np.abs(runs[_PRESSURE].to_numpy(dtype=float)[columns] - pressure)
+        nearest = np.where(own, distance, np.inf).argmin(axis=1)
+        only = np.zeros_like(own)
+        only[np.arange(len(own)), nearest] = own.any(axis=1)
+        fits[:, columns] = np.where(with_pressure[:, None], only, own)
+    return fits
+
+
+def first_ambiguous(points: pd.DataFrame, tests: IntArray, found: pd.DataFrame) -> int | None:
+    """Position of the first test that fits several simulations of one variant; None if none does.
+
+    `tests` and `found` are the pairs of `matched`, `found` as rows of the simulations.
+    """
+    doubled = pd.DataFrame({"test": tests, "variant": found["variant"].to_numpy()}).duplicated()
+    return int(tests[np.argmax(doubled.to_numpy())]) if doubled.any() else None
