@@ -3,15 +3,15 @@
 As in section 3.4 of the paper, in three steps. A *rigid block*, which takes about a second, gives
 a first kappa for every condition (pressure and velocity). The *discrete* estimates are the
 constant kappas with which the simulated block, on the case's mesh and with all its couplings,
-shows the measured temperatures. The *power law* of eq. (14) is fitted to the temperatures
-themselves, because in a simulation the local pressure enters it, not the mean one: the block is
-simulated with the law, and the law corrected, until the correction changes no temperature by more
-than `TOLERANCE_K`.
+shows the measured temperatures. The *power law* of eq. (14), at the mean contact pressure or at
+whatever `heat.partition.pressure` of the case says, is fitted to the temperatures themselves: the
+block is simulated with the law, and the law corrected, until the correction changes no temperature
+by more than `TOLERANCE_K`.
 
 Few simulations do, because each of them predicts its neighbours well. The heat that a slide
 leaves in the rubber reaches 0.1-0.3 mm deep while pressure and temperature vary over millimetres,
-so every point of the surface heats up by its own kappa: multiplying it by r multiplies the rise by
-r^m, with m slightly below one since friction falls with temperature. The rigid block gives m.
+so every point of the surface heats up by the kappa it has: multiplying it by r multiplies the rise
+by r^m, with m slightly below one since friction falls with temperature. The rigid block gives m.
 A prediction only steers and weighs; what counts is compared with a simulation.
 
 References
@@ -39,6 +39,7 @@ from calibration.partition_slides import (
     PartitionModel,
     Simulated,
     constant,
+    partition_table,
     power,
 )
 from calibration.provenance import version
@@ -150,6 +151,12 @@ def _check_case(case: Case) -> None:
             file=case.source, key="heat.partition.cap", found=f"{case.heat.partition.cap:g}",
             expected=f"at least {SMALLEST:g}, a share of the friction power to identify",
         )  # fmt: skip
+    if not isinstance(case.heat.partition.pressure, str):
+        raise CaseError(
+            file=case.source, key="heat.partition.pressure",
+            found=f"{case.heat.partition.pressure:g}",
+            expected='"mean" or "local": with one fixed pressure the law has no exponent to fit',
+        )  # fmt: skip
     if case.friction.law == "coulomb" and case.friction.mu == 0.0:
         raise CaseError(
             file=case.source, key="friction.mu", found="0", expected="friction, which makes heat"
@@ -168,9 +175,9 @@ def _discrete(
     share = _mean([s.share for s in before]) if before else model.first_share
     platen = condition.pressure * (share if condition.of_contact else 1.0)
     for count in range(1, most + 1):
-        slide = model.simulated(condition, constant(kappa, model.cap), platen, rigid.m)
+        slide = model.simulated(condition, constant(kappa, model.like), platen, rigid.m)
         next_kappa = model.clipped(kappa * slide.misfit_ratio())
-        change = slide.largest_change(constant(next_kappa, model.cap))
+        change = slide.largest_change(constant(next_kappa, model.like))
         scale = slide.pressure_scale
         done = change <= DISCRETE_TOLERANCE_K and abs(scale - 1.0) <= PRESSURE_TOLERANCE
         kappa, platen = next_kappa, slide.next_platen
@@ -200,14 +207,14 @@ def _law(
     result = _fit_law(data, rounds, _start(found))
     rounds.clear()
     while True:
-        law = power(result.theta, model.cap)
+        law = power(result.theta, model.like)
         slides = [
             model.simulated(estimate.slide.condition, law, platen, estimate.m)
             for estimate, platen in zip(found, platens, strict=True)
         ]
         rounds.append(slides)
         result = _fit_law(data, rounds, result.theta)
-        law = power(result.theta, model.cap)
+        law = power(result.theta, model.like)
         change = max(slide.largest_change(law) for slide in slides)
         pressed = all(abs(s.pressure_scale - 1.0) <= PRESSURE_TOLERANCE for s in slides)
         if (change <= TOLERANCE_K and pressed) or max(s.number for s in slides) >= simulations:
@@ -229,10 +236,10 @@ def _fit_law(
     data: PartitionData, rounds: Sequence[Sequence[Conditioned]], start: Array
 ) -> FitResult:
     """Fit the law to the measurements through what the slides predict for other laws."""
-    cap = rounds[0][0].cap
+    like = rounds[0][0].law
 
     def predict(theta: Array) -> Array:
-        law = power(theta, cap)
+        law = power(theta, like)
         shares = _nearness(theta, rounds)
         return sum(
             share * np.concatenate([slide.predicted(law) for slide in slides])
@@ -283,7 +290,7 @@ def _completed(
     slides: Sequence[Conditioned],
     correction: float,
 ) -> FitResult:
-    law = power(result.theta, slides[0].cap)
+    law = power(result.theta, slides[0].law)
     kind = "surface temperatures" if data.quantity == "T_C" else "highest temperatures"
     metadata: dict[str, Any] = {
         "kind": "partition",
@@ -299,19 +306,13 @@ def _completed(
         "version": version(),
         "simulated_by": program_version(),
     }
-    partition = {
-        "law": "power",
-        "prefactor": law.prefactor,
-        "exponent": law.exponent,
-        "cap": law.cap,
-    }
     p = [slide.contact_pressure for slide in slides]
     v = [condition.velocity for condition in data.conditions]
     window = {"p_N_per_mm2": [min(p), max(p)], "v_mm_per_s": [min(v), max(v)]}
     warnings = (*result.warnings, *_warnings(slides, law, correction))
     return replace(
         result, model=law, metadata=metadata, warnings=warnings,
-        section={"heat": {"partition": partition, "window": window}},
+        section={"heat": {"partition": partition_table(law), "window": window}},
     )  # fmt: skip
 
 

@@ -23,14 +23,14 @@ CONTACT_SHARE = 0.75
 _RIGID = (0.25, 0.75)
 
 
-def constant(kappa: float, cap: float) -> HeatPartition:
-    """The same partition at every pressure."""
-    return HeatPartition(prefactor=kappa, exponent=0.0, cap=cap)
+def constant(kappa: float, like: HeatPartition) -> HeatPartition:
+    """The same partition at every pressure, with the cap of another."""
+    return replace(like, prefactor=kappa, exponent=0.0)
 
 
-def power(theta: Array, cap: float) -> HeatPartition:
-    """Power law of eq. (14) from prefactor and exponent."""
-    return HeatPartition(prefactor=float(theta[0]), exponent=float(theta[1]), cap=cap)
+def power(theta: Array, like: HeatPartition) -> HeatPartition:
+    """Power law of eq. (14) from prefactor and exponent; cap and kind of pressure of another."""
+    return replace(like, prefactor=float(theta[0]), exponent=float(theta[1]))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,13 +98,15 @@ class Conditioned:
     def predicted(self, law: HeatPartition, scale: float | None = None) -> Array:
         """Observations (n,) [deg C] to be expected with another law.
 
-        Every point's rise changes by the m-th power of its own partition, and of the pressure
-        where the stated mean contact pressure was missed by a little (`scale`).
+        Every point's rise changes by the m-th power of its partition, and of the pressure where
+        the stated mean contact pressure was missed by a little (`scale`).
         """
         scale = self.pressure_scale if scale is None else scale
         p, touching = self.slide.pressure, self.slide.pressure > 0.0
         ratio = np.ones_like(p)
-        ratio[touching] = scale * law(scale * p[touching]) / self.law(p[touching])
+        mean = self.contact_pressure
+        new = law(law.governing(scale * p[touching], scale * mean))
+        ratio[touching] = scale * new / self.law(self.law.governing(p[touching], mean))
         # Points that have left the road since then: as the others, on average.
         ratio[~touching] = ratio[touching].mean() if touching.any() else 1.0
         return self._observations(ratio)
@@ -123,7 +125,7 @@ class Conditioned:
 
     def kappa_error(self, kappa: float, noise: float | None) -> float:
         """Standard error of a constant partition [-]; `noise` [K] where no deviation is known."""
-        slope = self.m * (self.predicted(constant(kappa, self.cap)) - self.ambient) / kappa
+        slope = self.m * (self.predicted(constant(kappa, self.law)) - self.ambient) / kappa
         if noise is not None:
             return noise / float(np.linalg.norm(slope))
         return float(1.0 / np.linalg.norm(self.condition.weights * slope))
@@ -131,7 +133,8 @@ class Conditioned:
     def capped_share(self, law: HeatPartition) -> float:
         """Share of the contact force where the law is capped [-]."""
         p = self.slide.pressure
-        return float(p[law.uncapped(p) > law.cap].sum() / max(float(p.sum()), 1e-12))
+        capped = law.uncapped(law.governing(p, self.contact_pressure)) > law.cap
+        return float(p[capped].sum() / max(float(p.sum()), 1e-12))
 
     def _observations(self, ratio: Array) -> Array:
         """Observations when the partition of every point changes by a factor (m,)."""
@@ -146,7 +149,7 @@ class Conditioned:
         """Points that may be the hottest of the interior with another law."""
         X, T = self.slide.X, self.slide.T
         behind = X / X[-1] <= 1.0 - EDGE_ZONE
-        if self.law.exponent == 0.0:
+        if self.law.exponent == 0.0 and self.law.pressure == "local":
             # A constant partition heats the crushed leading edge far more than the power law
             # does, and its peak may hide the valley behind it: the leading fifth is left out.
             # Its hottest point stands for the others, since the law has heated those at the rear
@@ -214,7 +217,12 @@ class PartitionModel:
     @property
     def cap(self) -> float:
         """Largest partition [-]."""
-        return self.case.heat.partition.cap
+        return self.like.cap
+
+    @property
+    def like(self) -> HeatPartition:
+        """Partition of the case, whose cap and kind of pressure the fitted one has."""
+        return self.case.heat.partition_object()
 
     @property
     def first_share(self) -> float:
@@ -229,7 +237,7 @@ class PartitionModel:
         """Partition of a rigid block with the stated pressure, from two of them."""
         low, high = (self.clipped(share * self.cap) for share in _RIGID)
         blocks = [
-            self._run(condition, constant(kappa, self.cap), condition.pressure, 1.0, rigid=True)
+            self._run(condition, constant(kappa, self.like), condition.pressure, 1.0, rigid=True)
             for kappa in (low, high)
         ]
         rises = [float(np.mean(block.simulated)) - block.ambient for block in blocks]
@@ -247,9 +255,7 @@ class PartitionModel:
     def _run(
         self, condition: Condition, law: HeatPartition, platen: float, m: float, *, rigid: bool
     ) -> Conditioned:
-        law = HeatPartition(
-            prefactor=_rounded(law.prefactor), exponent=_rounded(law.exponent), cap=law.cap
-        )
+        law = replace(law, prefactor=_rounded(law.prefactor), exponent=_rounded(law.exponent))
         platen = _rounded(platen)
         kind = "rigid block, " if rigid else ""
         case = self.case.with_overrides(
@@ -257,7 +263,7 @@ class PartitionModel:
                 "block.rigid": rigid,
                 "loading.mean_pressure_N_per_mm2": platen,
                 "loading.velocity_mm_per_s": condition.velocity,
-                "heat.partition": _table(law),
+                "heat.partition": partition_table(law),
                 "output.snapshots": 1,
                 "output.vtu": False,
                 "output.figures": False,
@@ -279,15 +285,14 @@ def _rounded(value: float) -> float:
     return float(f"{value:.7g}")
 
 
-def _table(law: HeatPartition) -> dict[str, str | float]:
+def partition_table(law: HeatPartition) -> dict[str, str | float]:
+    """The law as the table `heat.partition` of a case."""
+    table: dict[str, str | float] = {"law": "power", "prefactor": law.prefactor}
     if law.exponent == 0.0:
-        return {"law": "constant", "prefactor": law.prefactor, "cap": law.cap}
-    return {
-        "law": "power",
-        "prefactor": law.prefactor,
-        "exponent": law.exponent,
-        "cap": law.cap,
-    }
+        table["law"] = "constant"
+    else:
+        table["exponent"] = law.exponent
+    return table | {"cap": law.cap, "pressure": law.pressure}
 
 
 def _described(law: HeatPartition) -> str:

@@ -179,7 +179,7 @@ def plot_partition(result: FitResult, discrete: pd.DataFrame) -> Figure:
     above.errorbar(p, discrete["kappa"], yerr=error, marker="o", capsize=3, label=label, **dots)
     fine = np.geomspace(0.8 * p.min(), 1.2 * p.max(), 200)
     prefactor, exponent = result.theta
-    label = f"κ = {prefactor:.4g} $p^{{{exponent:.4g}}}$, local p"
+    label = f"κ = {prefactor:.4g} $p^{{{exponent:.4g}}}$, {result.model.pressure} p"
     above.plot(fine, result.model(fine), color=COLOURS[1], label=label)
     below.plot(p, discrete["fit_C"] - discrete["measured_C"], marker="o", **dots)
     above.set_title(f"heat partition: RMSE {result.rmse:.3g} K", fontsize=10)

@@ -40,6 +40,11 @@ class Partition(Section):
     prefactor: _Prefactor = Field(0.3146, description="kappa at 1 N/mm^2 [-]")
     exponent: Exponent = Field(-0.6833, description="exponent of the pressure [-]")
     cap: Share = Field(1.0, description="largest share that may become heat [-]")
+    pressure: Literal["mean", "local"] | _Pressure = Field(
+        "mean",
+        description='p of eq. (14): "mean": of the contact, one for all points, as in the paper; '
+        '"local"; or a number [N/mm^2]',
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -82,6 +87,7 @@ class Heat(Section):
             prefactor=self.partition.prefactor,
             exponent=self.partition.exponent,
             cap=self.partition.cap,
+            pressure=self.partition.pressure,
         )
 
     def conductance_object(self) -> GapConductance:

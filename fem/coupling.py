@@ -82,6 +82,12 @@ class RoadContact:
         return float(self.normal.sum())
 
     @property
+    def mean_pressure(self) -> float:
+        """Normal force over contact length [N/mm^2]; 0 without contact."""
+        length = self.contact_length
+        return max(self.normal_force, 0.0) / length if length > 0.0 else 0.0
+
+    @property
     def friction_force(self) -> float:
         """Force of the block on the road along x, positive to the right [N/mm]."""
         return float(-self.shear.sum())
@@ -116,7 +122,8 @@ class AcceptedStep:
     iterations, hardest_pass : int
         Newton iterations of all passes, and of the pass that took most.
     lag_error : float
-        Relative change of the friction force that a further pass would bring [-].
+        Relative change of the friction force with the coefficient at the pressures, slip
+        velocities and temperatures of the end of the step [-].
     power : (m,) float array
         Frictional power of the candidates, mean over the step [mJ/s].
     kappa : (m,) float array
@@ -193,7 +200,8 @@ class CoupledModel:
     laws : ContactLaws
         Laws of the interface.
     mean_pressure : float
-        Pressure assumed for nodes that are about to touch the road [N/mm^2].
+        Pressure assumed for nodes that are about to touch the road, and as the mean pressure of
+        the contact in the first step [N/mm^2].
     friction_passes : int
         Largest number of passes over the friction coefficient in a step.
     options : newton.NewtonOptions
@@ -275,7 +283,7 @@ class CoupledModel:
                     )  # fmt: skip
                 return self._accept(
                     state, target, problem, result, contact,
-                    iterations=iterations, hardest=hardest, lag=lag, penetration=penetration,
+                    iterations=iterations, hardest=hardest, penetration=penetration,
                 )  # fmt: skip
             mu, pairs = mu if mu_settled else mu_next, next_pairs
             problem, start = problem.again(mu, pairs), replace(result.x, reactions=None)
@@ -333,13 +341,14 @@ class CoupledModel:
         *,
         iterations: int,
         hardest: int,
-        lag: float,
         penetration: float,
     ) -> AcceptedStep:
         x = result.x
         power = friction_power(state.contact, contact)
         # A node that has just opened made its heat under the pressure it had.
         pressure = np.where(contact.status.active, contact.pressure, state.contact.pressure)
+        mean = state.contact.mean_pressure or self.mean_pressure
+        pressure = self.laws.partition.governing(pressure, mean)
         kappa, uncapped = self.laws.partition(pressure), self.laws.partition.uncapped(pressure)
         nodes, work = self._self_friction(problem, result.evaluation)
         heat = self._heat(
@@ -356,7 +365,8 @@ class CoupledModel:
         )  # fmt: skip
         return AcceptedStep(
             before=state, after=after, target=target, evaluation=result.evaluation,
-            problem=problem, iterations=iterations, hardest_pass=hardest, lag_error=lag,
+            problem=problem, iterations=iterations, hardest_pass=hardest,
+            lag_error=lag_error(contact, after.mu),
             power=power, kappa=kappa,
             capped=uncapped > self.laws.partition.cap, self_friction=float(work.sum()),
             penetration=penetration,

@@ -156,8 +156,9 @@ def slide_rigid_block(
     lengths = bottom_lengths(mesh)
     p = np.full(len(lengths), sliding.pressure)
     h = W_PER_M2K * sliding.conductance.conductance(p, speed)
-    kappa = sliding.partition(p)
-    capped = sliding.partition.uncapped(p) > sliding.partition.cap
+    governing = sliding.partition.governing(p, sliding.pressure)
+    kappa = sliding.partition(governing)
+    capped = sliding.partition.uncapped(governing) > sliding.partition.cap
     steps = max(1, int(np.ceil(sliding.distance / sliding.step_mm - 1e-9)))
     dt = sliding.distance / steps / speed
     at_rest = np.zeros_like(mesh.points)

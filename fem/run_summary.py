@@ -70,7 +70,7 @@ def steady_shares(history: pd.DataFrame) -> dict[str, float]:
 
 
 def lag_share(history: pd.DataFrame) -> float:
-    """Share of the friction work that one more pass over the coefficient would change [-]."""
+    """Share of the friction work by which the coefficient lags behind its contact [-]."""
     if history.empty:
         return float("nan")
     work = history["friction_dissipation_mJ_per_mm"].diff().abs().fillna(0.0)

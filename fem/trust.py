@@ -62,7 +62,7 @@ LIMITS = (
     ),
     Limit(
         key="friction_lag_share", largest=0.02,
-        meaning="share of the friction work that another pass over the coefficient would change",
+        meaning="share of the friction work by which the coefficient lags behind its contact",
         advice="use more [solver] friction_passes or smaller steps (steps_scale)",
     ),
     Limit(

@@ -40,7 +40,8 @@ class MadeUpStore:
         share = 1.0 if rigid else CONTACT - 0.1 * platen
         p = (np.ones_like(X) if rigid else SHAPE) * platen / share
         speed = abs(case.loading.velocity_mm_per_s) / 300.0
-        kappa = case.heat.partition_object()(p)
+        partition = case.heat.partition_object()
+        kappa = partition(partition.governing(p, platen / share))
         rise = 80.0 * speed**0.4 * (kappa * p) ** 0.9
         T = case.heat.ambient_C + rise
         return Slide(X=X, T=T, pressure=p, mean_contact_pressure=platen / share)

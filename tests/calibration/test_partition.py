@@ -40,7 +40,7 @@ def made_up_slide(case, platen, velocity=300.0):
     keys = {
         "loading.mean_pressure_N_per_mm2": platen,
         "loading.velocity_mm_per_s": velocity,
-        "heat.partition": {"law": "power"},
+        "heat.partition": {"law": "power", "pressure": case.heat.partition.pressure},
     }
     return MadeUpStore().slide(case.with_overrides(keys), "")
 
@@ -83,8 +83,10 @@ def check_budget(store, most):
     assert max(per_condition.values()) <= most
 
 
-def test_law_comes_back_from_highest_temperatures():
-    case, store = case_of(), MadeUpStore()
+@pytest.mark.parametrize("pressure", ["mean", "local"])
+def test_law_comes_back_from_highest_temperatures(pressure):
+    case = case_of().with_overrides({"heat.partition.pressure": pressure})
+    store = MadeUpStore()
     table = peaks(case, [(p, v) for v in (50.0, 300.0) for p in PRESSURES])
     found = fit_partition(table, case, store)
     check_recovered(found.result, 1e-3)
@@ -175,6 +177,17 @@ def test_the_budget_of_simulations_is_kept_and_an_unconfirmed_correction_said():
     assert any("allow more with --simulations" in w for w in found.result.warnings)
     with pytest.raises(ValueError, match="expected at least 3"):
         fit_partition(table, case, store, simulations=2)
+
+
+def test_the_fitted_law_keeps_the_kind_of_pressure_and_a_fixed_one_is_refused():
+    case = case_of().with_overrides({"heat.partition.pressure": "local"})
+    table = peaks(case, [(p, 300.0) for p in PRESSURES])
+    found = fit_partition(table, case, MadeUpStore())
+    assert found.result.section["heat"]["partition"]["pressure"] == "local"
+    assert found.result.model.pressure == "local"
+    fixed = case.with_overrides({"heat.partition.pressure": 0.3})
+    with pytest.raises(ValueError, match=r"^case: heat.partition.pressure: found 0.3, expected"):
+        fit_partition(table, fixed, MadeUpStore())
 
 
 @pytest.mark.parametrize(

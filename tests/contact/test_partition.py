@@ -28,3 +28,16 @@ def test_wrong_parameters_are_refused():
         HeatPartition(cap=1.2)
     with pytest.raises(ValueError, match=r"prefactor is -0.3; expected zero or more"):
         HeatPartition(prefactor=-0.3)
+
+
+def test_the_governing_pressure_is_mean_local_or_fixed():
+    p = [0.1, 0.3, 5.0]
+    assert HeatPartition().governing(p, 0.3) == pytest.approx([0.3] * 3)
+    assert HeatPartition(pressure="local").governing(p, 0.3) == pytest.approx(p)
+    assert HeatPartition(pressure=0.25).governing(p, 0.3) == pytest.approx([0.25] * 3)
+
+
+@pytest.mark.parametrize("pressure", ["nominal", 0.0, -0.3, float("nan")])
+def test_a_pressure_that_cannot_be_meant_is_refused(pressure):
+    with pytest.raises(ValueError, match="pressure"):
+        HeatPartition(pressure=pressure)

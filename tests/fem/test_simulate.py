@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from contact import HeatPartition
 from fem import Case, simulate
 from fem.columns import HISTORY, SUMMARY, SURFACE
 from fem.model_parts import mesh_of
@@ -281,3 +282,33 @@ def test_a_free_top_balances_as_well_as_a_platen(top):
     result = simulate(case_of(friction, loading={"top": top}, solver=solver))
     assert result.summary["status"] == "ok"
     assert result.summary["energy_error"] < 2e-3
+
+
+# ------------------------------------------------------------------------ heat partition
+
+
+def _heat_and_work(pressure):
+    """Heat made and friction work on the road by step, and the mean pressures before the steps."""
+    heat = {"partition": {"pressure": pressure}}
+    history = simulate(case_of(LOW_FRICTION, distance=1.0, heat=heat)).history
+    made, work = (
+        np.diff(history[f"{name}_mJ_per_mm"], prepend=0.0)
+        for name in ("frictional_heat", "friction_dissipation")
+    )
+    before = history["mean_contact_pressure_N_per_mm2"].shift(fill_value=0.25)
+    return made, work, before.to_numpy()
+
+
+def test_the_partition_takes_the_mean_pressure_of_the_last_step_at_every_point():
+    made, work, before = _heat_and_work("mean")
+    np.testing.assert_allclose(made, HeatPartition()(before) * work, rtol=1e-8)
+
+
+def test_a_fixed_pressure_gives_one_partition_for_the_whole_run():
+    made, work, _ = _heat_and_work(0.3)
+    np.testing.assert_allclose(made, float(HeatPartition()(0.3)) * work, rtol=1e-8)
+
+
+def test_the_local_pressure_makes_less_heat_where_the_edge_is_pressed():
+    made, work, before = _heat_and_work("local")
+    assert made.sum() < 0.99 * (HeatPartition()(before) * work).sum()

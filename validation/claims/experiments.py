@@ -13,17 +13,12 @@ Changes = Mapping[str, Mapping[str, Any]]
 #: Changes of the introductory example by how a reader calls them, to the case keys.
 LOWER_BLOCK: Changes = {"a block 5 mm high": {"block.height_mm": 5.0}}
 FREE_TOP: Changes = {"a free top under uniform pressure": {"loading.top": "pressure"}}
-NOMINAL_CONTACT: Changes = {
-    "the heat partition of the nominal 0.3 N/mm² everywhere": {
-        "heat.partition.law": "constant",
-        "heat.partition.prefactor": 0.7162,
-    },
+#: Which pressure governs the heat of the contact: heat made at the local instead of the mean one,
+#: heat conducted at the nominal instead of the local one.
+CONTACT_PRESSURE: Changes = {
+    "the heat partition of the local pressure": {"heat.partition.pressure": "local"},
     "the gap conductance of 0.3 N/mm² everywhere": {"heat.exponent": 0.0},
-    "both at 0.3 N/mm² everywhere": {
-        "heat.partition.law": "constant",
-        "heat.partition.prefactor": 0.7162,
-        "heat.exponent": 0.0,
-    },
+    "both": {"heat.partition.pressure": "local", "heat.exponent": 0.0},
 }
 #: Friction that does not feel the temperature.
 NO_SHIFT: Changes = {"no shift of friction with temperature": {"friction.wlf": False}}

@@ -55,7 +55,7 @@ def mean_contact_pressure(evidence: Evidence) -> Finding:
         if holds
         else experiments.tried(
             evidence,
-            {**experiments.LOWER_BLOCK, **experiments.FREE_TOP, **experiments.NOMINAL_CONTACT},
+            {**experiments.LOWER_BLOCK, **experiments.FREE_TOP, **experiments.CONTACT_PRESSURE},
             _pressure,
             _rounds_to_0_3,
             "N/mm²",
@@ -168,7 +168,7 @@ def temperature_peak_at_edge(evidence: Evidence) -> Finding:
         if holds
         else experiments.tried(
             evidence,
-            experiments.NOMINAL_CONTACT,
+            experiments.CONTACT_PRESSURE,
             front_edge_temperature,
             _edge_is_hottest,
             "°C at the edge",
@@ -333,12 +333,14 @@ def _edge_is_hottest(result: Result) -> bool:
 
 def _why_the_edge_is_cool(result: Result) -> str:
     p = float(result.history["max_contact_pressure_N_per_mm2"].iloc[-1])
-    kappa = float(result.case.heat.partition_object()(p))
+    partition = result.case.heat.partition_object()
+    governing = float(partition.governing(p, _pressure(result)))
+    kappa = float(partition(governing))
     h = float(result.case.heat.conductance_object().conductance(p))
     return (
-        f"At the edge's highest pressure of {p:.1f} N/mm², eq. (14) turns {100 * kappa:.0f} % of "
-        f"the friction into heat and eq. (11) conducts {h:.0f} W/(m² K) into road that is still "
-        "cold; both were identified from pressures near 0.3 N/mm²."
+        f"Under the edge's highest pressure of {p:.1f} N/mm², eq. (14) turns {100 * kappa:.0f} % "
+        f"of the friction into heat (at {governing:.2f} N/mm²) and eq. (11) conducts {h:.0f} "
+        "W/(m² K) into road that is still cold; both were identified from pressures near 0.3 N/mm²."
     )
 
 

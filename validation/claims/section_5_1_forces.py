@@ -15,7 +15,7 @@ from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.paper.table4 import PAPER_N_PER_MM
 
 #: Changes that were run for the two sets at the ends of Table 4.
-_CHANGES = {**experiments.NOMINAL_CONTACT, **experiments.NO_SHIFT}
+_CHANGES = {**experiments.CONTACT_PRESSURE, **experiments.NO_SHIFT}
 
 
 def _force_claim(name: str) -> Claim:

@@ -437,8 +437,8 @@ def _elsewhere_words(evidence: Evidence, velocity: float) -> str:
             local += [pressure_at_peak(low), pressure_at_peak(high)]
             middle.append(middle_temperature(high) - middle_temperature(low))
     return (
-        f"The hottest point lies towards the rear, where the pressure tapers off: it is under "
-        f"{min(local):.2f} to {max(local):.2f} N/mm² at every mean pressure. In the middle of the "
+        f"The hottest point of the interior is under {min(local):.2f} to {max(local):.2f} N/mm², "
+        f"at mean pressures of {ends[0]:g} to {ends[1]:g} N/mm² on the top. In the middle of the "
         f"block, under about the mean pressure, the change is {min(middle):+.2f} to "
         f"{max(middle):+.2f} K. {_rigid_words(evidence)}"
     )

@@ -91,11 +91,12 @@ PARAMETERS = {
         why="eq. (14) exceeds 1 below 0.184 N/mm^2; a cap above 1 would create energy and is "
         "refused, so only the other direction can be shown",
     ),
-    "heat.partition.law": Parameter(
-        label="heat partition",
+    "heat.partition.pressure": Parameter(
+        label="pressure of the heat partition",
+        unit="N/mm²",
         group=PHYSICS,
-        why="eq. (14) was identified from mean pressures; here with the nominal 0.3 N/mm^2 at "
-        "every point, which is 0.716, instead of the local pressure",
+        why="eq. (14) was identified from the mean pressures of tests; here with the pressure of "
+        "each point, and with the paper's 0.3 N/mm^2, instead of the mean contact pressure",
     ),
     "friction.v_min_mm_per_s": Parameter(
         label="velocity floor of friction",

@@ -45,7 +45,7 @@ def test_runs_are_found_by_what_tells_them_apart(evidence):
     [
         experiments.LOWER_BLOCK,
         experiments.FREE_TOP,
-        experiments.NOMINAL_CONTACT,
+        experiments.CONTACT_PRESSURE,
         experiments.NO_SHIFT,
         {"a neo-Hookean rubber": experiments.NEO_HOOKE},
     ],
@@ -65,7 +65,7 @@ def test_every_case_of_the_study_is_used():
     tried = [
         *experiments.LOWER_BLOCK.values(),
         *experiments.FREE_TOP.values(),
-        *experiments.NOMINAL_CONTACT.values(),
+        *experiments.CONTACT_PRESSURE.values(),
         *experiments.NO_SHIFT.values(),
         experiments.NEO_HOOKE,
         *(experiments.rigid_block(law, p) for law in LAWS for p in (0.2, 0.4)),
