@@ -221,8 +221,7 @@ class _RigidRun:
     def summary(self, outcome: Outcome) -> dict[str, Any]:
         """Scalars of the run."""
         history = pd.DataFrame(self.rows)
-        warnings = list(self.case.warnings)
-        summary: dict[str, Any] = {"status": outcome.status, "warnings": warnings}
+        summary: dict[str, Any] = {"status": outcome.status}
         if outcome.reason:
             summary |= {"reason": outcome.reason, "advice": outcome.advice}
         summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
@@ -243,7 +242,7 @@ class _RigidRun:
             **layer_errors(history, self.model),
             "min_J": 1.0,
             "program_version": program_version(),
-            "warnings": window_warnings(self.case, self.rows),
+            "warnings": [*self.case.warnings, *window_warnings(self.case, self.rows)],
         }
         return judged(summary)
 

@@ -312,7 +312,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
     """Scalars of a run; forces and lengths are means over the sliding phase at full speed."""
     history = pd.DataFrame(run.recorder.rows)
     mechanics, heat, case = run.model.mechanics, run.state.heat, run.case
-    summary: dict[str, Any] = {"status": outcome.status, "warnings": list(case.warnings)}
+    summary: dict[str, Any] = {"status": outcome.status}
     if outcome.reason:
         summary |= {"reason": outcome.reason, "advice": outcome.advice}
     summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
@@ -336,7 +336,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "min_J": run.recorder.smallest_J,
         "solver_s": run.solver_seconds,
         "program_version": program_version(),
-        "warnings": window_warnings(case, run.recorder.rows),
+        "warnings": [*case.warnings, *window_warnings(case, run.recorder.rows)],
     }
     return judged(summary)
 

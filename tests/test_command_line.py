@@ -16,7 +16,7 @@ import pytest
 import treadfem
 from fem.case import Case
 from fem.case_reading import parse_override
-from tests.wrong_cases import LOADING, SET_SYNTAX, WRONG_CASES, WrongCase
+from tests.wrong_cases import LOADING
 from validation.sweeps.study_runs import StudyError
 
 ROOT = Path(__file__).parents[1]
@@ -79,29 +79,6 @@ def stub(monkeypatch):
 
 
 # -- bad input -------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("verb", ["run", "check"])
-@pytest.mark.parametrize("wrong", WRONG_CASES + SET_SYNTAX, ids=lambda wrong: wrong.name)
-def test_bad_input_gives_one_line_and_writes_nothing(
-    verb, wrong: WrongCase, tmp_path, monkeypatch, capsys
-):
-    monkeypatch.chdir(tmp_path)
-    path = wrong.write(tmp_path)
-    before = contents(tmp_path)
-    output = ["-o", "out"] if verb == "run" else []
-    overrides = [word for text in wrong.overrides for word in ("--set", text)]
-
-    code = command(verb, path.name, *output, *overrides)
-
-    printed = capsys.readouterr()
-    assert code == 2
-    assert printed.out == ""
-    assert len(printed.err.splitlines()) == 1
-    file = "--set" if wrong in SET_SYNTAX else wrong.blames
-    for part in (file, wrong.key, wrong.found, wrong.expected):
-        assert part in printed.err
-    assert contents(tmp_path) == before
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,6 @@ from fem.case_errors import CaseError
 from fem.case_reading import parse_override
 from fem.template import case_template
 from materials import ASPHALT, COMPOUNDS, RUBBER, ArrudaBoyce, NeoHooke, Ogden, VanDerWaals, Yeoh
-from tests.wrong_cases import SET_SYNTAX, WRONG_CASES, WrongCase
 
 LOADING = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300, "distance_mm": 120.0}
 YEOH = {
@@ -197,15 +196,6 @@ def test_override_values_are_read_as_toml_and_bare_words_as_text(text, value):
     assert parse_override(text)[1] == value
 
 
-@pytest.mark.parametrize("wrong", SET_SYNTAX, ids=lambda wrong: wrong.name)
-def test_override_without_sense_is_refused(wrong):
-    with pytest.raises(CaseError) as caught:
-        parse_override(*wrong.overrides)
-    assert caught.value.key == wrong.key
-    assert wrong.found in caught.value.found
-    assert wrong.expected in caught.value.expected
-
-
 def test_override_changes_nothing_else():
     case = case_with().with_overrides({"loading.velocity_mm_per_s": 50.0})
     assert case == case_with(loading={**LOADING, "velocity_mm_per_s": 50.0})
@@ -274,19 +264,6 @@ def test_parameter_file_named_by_an_override_replaces_the_compound(tmp_path, mon
 
 
 # -- faults --------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("wrong", WRONG_CASES, ids=lambda wrong: wrong.name)
-def test_fault_is_named_in_one_line(wrong: WrongCase, tmp_path):
-    path = wrong.write(tmp_path)
-    with pytest.raises(CaseError) as caught:
-        Case.from_toml(path, dict(parse_override(text) for text in wrong.overrides))
-    error = caught.value
-    assert wrong.blames in error.file
-    assert error.key == wrong.key
-    assert wrong.found in error.found
-    assert wrong.expected in error.expected
-    assert len(str(error).splitlines()) == 1
 
 
 KEYS = [
