@@ -337,3 +337,67 @@ def test_unreadable_file_is_named(tmp_path, monkeypatch):
         CaseError, match=r"case\.toml: file: found unreadable \(Permission denied\)"
     ):
         Case.from_toml(path)
+
+
+# -- numbers ---------------------------------------------------------------------------------------
+
+
+def test_numbers_of_numpy_are_those_of_python():
+    mesh = {"cells_x": 40, "cells_y": 20, "smallest_x_mm": 0.2, "smallest_y_mm": 0.1}
+    loading = {key: np.float32(value) for key, value in LOADING.items()}
+    case = case_with(
+        loading=loading,
+        block={"mesh": {**mesh, "cells_x": np.int64(40)}, "rigid": np.bool_(True)},
+        solver={"friction_passes": np.uint8(3)},
+    )
+    plain = case_with(block={"mesh": mesh, "rigid": True}, solver={"friction_passes": 3})
+    assert case == plain
+    assert case.hash() == plain.hash()
+    assert case.with_overrides({"output.snapshots": np.int32(4)}).output.snapshots == 4
+
+
+def test_both_zeros_are_the_same_case():
+    zero, minus = (case_with(friction={"b": 1.0, "c": value}) for value in (0.0, -0.0))
+    assert zero.hash() == minus.hash()
+    assert "-0.0" not in minus.to_toml()
+
+
+def test_another_law_of_the_heat_partition_drops_the_exponent_of_the_old_one():
+    power = case_with(heat={"partition": {"exponent": -0.5}})
+    constant = power.with_overrides({"heat.partition.law": "constant"})
+    assert constant.heat.partition.exponent == 0.0
+    back = constant.with_overrides({"heat.partition.law": "power"})
+    assert back.heat.partition.exponent == case_with().heat.partition.exponent
+
+
+def test_usual_cases_say_nothing():
+    assert case_with().warnings == ()
+
+
+@pytest.mark.parametrize("name", COMPOUNDS)
+def test_compounds_of_the_paper_are_usual(name):
+    assert case_with(rubber={"compound": name}).warnings == ()
+
+
+def test_unusual_numbers_are_named_by_their_key():
+    case = case_with(
+        heat={"ambient_C": 77}, rubber={"model": "neo-hooke", "G_N_per_mm2": 30.0},
+        friction={"law": "exponential", "A": 4.0},
+    )  # fmt: skip
+    found = {key: finding.value for key, finding in case.unusual()}
+    assert found["heat.ambient_C"] == 77.0
+    assert found["rubber.G_N_per_mm2"] == 30.0
+    assert found["friction.law"] == pytest.approx(4.0 * 0.25**-0.0645 * 300**0.0425)
+    assert len(case.warnings) == 3
+
+
+@pytest.mark.parametrize("pressure, refused", [(0.2, False), (1.0, True)])
+def test_friction_may_be_negative_only_where_no_run_goes(pressure, refused):
+    """alpha p^(n-1) + beta is negative above (-beta/alpha)^(1/(n-1)) = 32 N/mm^2."""
+    law = {"alpha": 0.2, "n": 0.8, "beta": -0.1}
+    loading = {**LOADING, "mean_pressure_N_per_mm2": pressure}
+    if refused:
+        with pytest.raises(CaseError, match=r"friction\.law: found huemer with the coefficient -"):
+            case_with(friction=law, loading=loading)
+    else:
+        assert case_with(friction=law, loading=loading).friction.beta == -0.1
