@@ -326,6 +326,7 @@ def _add_sweep(commands: Any) -> None:
         "--yes", action="store_true", help="begin a study of more than 1000 cases without asking"
     )
     _add_strict(parser)
+    _add_accept_unusual(parser)
     parser.set_defaults(command=_sweep)
 
 
@@ -345,6 +346,7 @@ def _sweep(arguments: argparse.Namespace) -> int:
                 resume=arguments.resume,
                 progress=bar,
                 confirm=lambda size: arguments.yes or _agreed(size),
+                warn=None if arguments.accept_unusual else _warn_of(arguments.study),
             )
     except SchedulerLostError as error:
         print(f"treadfem: {error}; --resume goes on from {directory}", file=sys.stderr)
@@ -353,6 +355,10 @@ def _sweep(arguments: argparse.Namespace) -> int:
     if not state.all_ok:
         return NOT_CONVERGED
     return WARNED if state.warned and arguments.strict else DONE
+
+
+def _warn_of(file: str) -> Callable[[str], None]:
+    return lambda sentence: _warn([f"{file}: {sentence}"])
 
 
 def _agreed(size: str) -> bool:

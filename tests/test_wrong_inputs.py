@@ -8,6 +8,7 @@ import pytest
 
 import treadfem
 from tests.validation.measured.test_comparison import write_run
+from tests.wrong_cases import LOADING
 from tests.wrong_inputs import UNUSUAL_INPUTS, WRONG_INPUTS, WrongInput
 
 
@@ -88,6 +89,20 @@ def test_unusual_numbers_of_a_case_are_in_its_log_and_its_summary(tmp_path, monk
     found = json.loads((tmp_path / "out" / "summary.json").read_text())["warnings"]
     assert found[0].startswith("heat.ambient_C: 68 is unusual; it looks like Fahrenheit")
     assert found[0] in (tmp_path / "out" / "run.log").read_text()
+
+
+def test_a_sweep_says_once_what_is_unusual_about_its_cases(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    case = LOADING.replace("120.0", "1.0") + "[output]\nfigures = false\nvtu = false\n"
+    (tmp_path / "case.toml").write_text(case + '[block]\nrigid = true\nmesh = "coarse"\n')
+    grid = '"heat.ambient_C" = [68.0]\n"friction.law" = ["huemer", "exponential"]\n'
+    (tmp_path / "study.toml").write_text(f'base = "case.toml"\n[grid]\n{grid}')
+    words = ["sweep", "study.toml", "-o", "out", "--workers", "1"]
+    for accepted in (False, True):
+        assert treadfem.main([*words, *(["--accept-unusual"] if accepted else [])]) == 0
+        said = [line for line in capsys.readouterr().err.splitlines() if "Fahrenheit" in line]
+        assert len(said) == (0 if accepted else 1)
+    assert (tmp_path / "out" / "summary.csv").read_text().count("Fahrenheit") == 2
 
 
 def test_unusual_numbers_of_a_fit_are_in_its_parameter_file(tmp_path, monkeypatch, capsys):

@@ -379,6 +379,13 @@ STUDIES = [
         'base = "case.toml"\n[grid]\n"friction.beta" = [0.4, -0.9]\n',
         "friction.law: found huemer with the coefficient -",
     ),
+    _study(
+        "a month in the grid",
+        'base = "case.toml"\n[grid]\n"loading.distance_mm" = [1.0, 1e6]\n'
+        '"solver.heat_step_mm" = [1e-5]\n',
+        "solver.heat_step_mm",
+        "days on one core",
+    ),
     _study("base that is no file", 'base = "nowhere.toml"\n', "nowhere.toml", "no such file"),
 ]
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from fem.case_errors import CaseError
+from fem.cost import refuse_unaffordable
 from fem.output_folder import output_folder
 from fem.program_version import program_version
 from fem.results import SUMMARY_CSV
@@ -27,6 +28,7 @@ def sweep(
     resume: bool = False,
     progress: Callable[[SweepProgress], None] | None = None,
     confirm: Callable[[str], bool] | None = None,
+    warn: Callable[[str], None] | None = None,
 ) -> SweepProgress:
     """Run all cases of a study file.
 
@@ -49,6 +51,8 @@ def sweep(
     confirm : callable, optional
         Asked before a study of more than a thousand cases, with its size in words; without it (or
         if it says no) such a study is not begun.
+    warn : callable, optional
+        Called before anything runs with each sentence about unusual numbers of the cases.
 
     Returns
     -------
@@ -72,6 +76,11 @@ def sweep(
             expected = f"at most {MANY_CASES} cases, or --yes"
             raise CaseError(file=str(study), key="grid", found=size, expected=expected)
     cases = read_study(study)
+    for case in cases:
+        refuse_unaffordable(case.case)
+    for sentence in dict.fromkeys(said for case in cases for said in case.case.warnings):
+        if warn is not None:
+            warn(sentence)
     with output_folder(
         directory, files=(SUMMARY_CSV, TIMINGS_CSV), folders=[RUNS_FOLDER]
     ) as folder:
