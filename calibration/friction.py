@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 COLUMNS = ("p_N_per_mm2", "v_mm_per_s", "mu")
 HUEMER_SCALE = 0.9203  # Table 2's a, the normalisation of the fit
 _SCALED = [0, 1, 4, 5, 6]  # places of alpha, beta, a, b, c
+_POINTS_OF_THE_STARTS = 2_000  # points that starts are made from
 _ONE_TEMPERATURE_K = 5.0  # data that span more were not measured at one temperature
 #: Pressures [N/mm^2] and speeds [mm/s] of tread blocks, up to ten times the mean at the edges.
 _OF_A_BLOCK = ((1e-3, 10.0), (1.0, 1e5))
@@ -149,6 +150,11 @@ class FrictionData:
     T: Array | None
     table: Table
 
+    def at(self, rows: NDArray[np.intp]) -> "FrictionData":
+        """Some of the points."""
+        T = None if self.T is None else self.T[rows]
+        return replace(self, p=self.p[rows], v=self.v[rows], mu=self.mu[rows], T=T)
+
 
 def read_friction(table: pd.DataFrame | str | Path | FrictionData) -> FrictionData:
     """Read and check a friction table."""
@@ -217,7 +223,9 @@ def fit_friction(
     _require_data(data, form, law, wlf, held)
     fit_shift = wlf == "fit"
     problem = _problem(form, data, wlf, T_ref_C)
-    begin = _starts(form, data, wlf, T_ref_C, starts)
+    n = data.mu.size
+    few = np.unique(np.linspace(0, n - 1, min(n, _POINTS_OF_THE_STARTS)).round().astype(np.intp))
+    begin = _starts(form, data.at(few), wlf, T_ref_C, starts)
     if law == "huemer":
         begin[:, _SCALED] *= held.get("a", HUEMER_SCALE) / HUEMER_SCALE
     result = fit(problem, begin, fixed=held, loss=loss, noise=noise)
@@ -242,6 +250,15 @@ def _require_data(
 
 
 def _problem(form: _Law, data: FrictionData, wlf: Any, T_ref_C: float) -> Problem:
+    return replace(
+        _problem_at(form, data, wlf, T_ref_C),
+        subset=lambda rows: _problem_at(form, data.at(rows), wlf, T_ref_C, whole=data),
+    )
+
+
+def _problem_at(
+    form: _Law, data: FrictionData, wlf: Any, T_ref_C: float, whole: FrictionData | None = None
+) -> Problem:
     common: dict[str, Any] = {"observed": data.mu}
     if wlf != "fit":
         v = _shifted_speed(data, wlf, T_ref_C)
@@ -266,7 +283,8 @@ def _problem(form: _Law, data: FrictionData, wlf: Any, T_ref_C: float) -> Proble
         by_d2 = _LN10 * d1 * dT / reached**2 * by_log_v
         return mu, np.column_stack([J, by_d1, by_d2])
 
-    pole = max(float(-dT.min()), 0.0) + 5.0  # keeps every temperature 5 K above the pole
+    coldest = data_min(data if whole is None else whole)
+    pole = max(T_ref_C - coldest, 0.0) + 5.0  # keeps every temperature 5 K above the pole
     return Problem(
         names=(*form.names, "d1", "d2_K"),
         predict=lambda theta: curve(theta)[0],

@@ -24,7 +24,6 @@ from calibration.stress_checks import check_modulus
 from calibration.stress_data import Cycle, StressData, select_data
 from calibration.stress_models import STRESS_MODELS, Kinematics, StressModel
 from calibration.stress_zero import Zero
-from materials.hyperelastic import MODES
 
 Array = NDArray[np.float64]
 Weighting = Literal["equal", "modes", "relative"]
@@ -195,8 +194,10 @@ def _require_points(
     data: StressData, law: StressModel, model: str, held: Mapping[str, float]
 ) -> None:
     free = sum(name not in held for name in law.names)
-    points = np.unique(np.stack([data.stretch, np.searchsorted(MODES, data.mode)]), axis=1)
-    telling = int(np.count_nonzero(points[0] != 1.0))  # the undeformed state tells nothing
+    telling = 0
+    for name in np.unique(data.mode):
+        points = np.unique(data.stretch[data.mode == name])
+        telling += int(np.count_nonzero(points != 1.0))  # the undeformed state tells nothing
     if telling < free:
         raise DataError(
             file=data.table.file,

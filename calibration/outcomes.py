@@ -157,7 +157,7 @@ def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None, **options: 
             "residual": result.predicted - result.observed,
         }
     )
-    files |= _files(result, points) | {"fit.png": png(plot_wlf(result))}
+    files |= _files(result, points) | {"fit.png": png(plot_wlf(result, data.T))}
     text = (
         f"{_heading(result, path)}\n  d1 and d2 refer to {result.metadata['T_ref_C']:g} deg C "
         "(wlf_T_ref_C); a case rebases them to T_ref_C, the temperature of its friction law"

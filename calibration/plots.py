@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 
 # Okabe and Ito's colours, which readers with any colour vision can tell apart
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+_MOST_DOTS = 5_000  # of one kind in a picture
+
 # Marker and label of the quantities of a master curve
 _CURVES = {
     "reduced_modulus_N_per_mm2": ("o", "E'/b_T [N/mm²]"),
@@ -45,7 +47,8 @@ def plot_hyperelastic(result: FitResult, data: StressData) -> Figure:
     residual = result.predicted - result.observed
     for mode, (low, high) in data.window.items():
         marker, colour = _MODES[mode]
-        here = data.mode == mode
+        here = np.flatnonzero(data.mode == mode)
+        here = here[_shown(here.size)]
         dots = {"marker": marker, "color": colour, "linestyle": "none", "markersize": 4}
         above.plot(data.stretch[here], data.stress[here], alpha=0.6, label=f"{mode}, data", **dots)
         lam = np.linspace(min(low, 1.0), max(high, 1.0), 300)
@@ -71,7 +74,9 @@ def plot_friction(result: FitResult, data: FrictionData) -> Figure:
     v = np.geomspace(speed.min(), speed.max(), 300)
     for i, pressure in enumerate(_groups(data.p)):
         colour = COLOURS[i % len(COLOURS)]
-        here = np.isclose(data.p, pressure) if np.unique(data.p).size <= 7 else _nearest(data.p, i)
+        few = np.unique(data.p).size <= 7
+        here = np.flatnonzero(np.isclose(data.p, pressure) if few else _nearest(data.p, i))
+        here = here[_shown(here.size)]
         dots = {"marker": "o", "color": colour, "linestyle": "none", "markersize": 3, "alpha": 0.5}
         above.plot(speed[here], data.mu[here], **dots)
         curve = law.law.coefficient(pressure, v)
@@ -90,6 +95,11 @@ def plot_friction(result: FitResult, data: FrictionData) -> Figure:
     return figure
 
 
+def _shown(count: int) -> NDArray[np.intp]:
+    """Which of so many points are drawn: all, or some evenly spread; more cannot be told apart."""
+    return np.unique(np.linspace(0, count - 1, min(count, _MOST_DOTS)).round().astype(np.intp))
+
+
 def _groups(p: Array) -> Array:
     """The pressures themselves when they are few, else five that stand for them."""
     levels = np.unique(p)
@@ -101,20 +111,21 @@ def _nearest(p: Array, i: int) -> NDArray[np.bool_]:
     return np.asarray(np.argmin(np.abs(p[:, None] - _groups(p)), axis=1) == i)
 
 
-def plot_wlf(result: FitResult) -> Figure:
+def plot_wlf(result: FitResult, temperatures: Array) -> Figure:
     """Shift factors over temperature with the WLF curve, and the residuals below."""
     figure, (above, below) = _panels()
-    T = result.metadata["T_C"]
+    shown = _shown(temperatures.size)
+    T = temperatures[shown]
     dots = {"marker": "o", "color": COLOURS[0], "linestyle": "none", "markersize": 4}
     offset = result.values["offset"]
-    above.plot(T, result.observed - offset, label="data", **dots)
+    above.plot(T, (result.observed - offset)[shown], label="data", **dots)
     fine = np.linspace(min(T), max(T), 300)
     reference = result.metadata["T_ref_C"]
     curve = result.model.log10_shift_factor(fine, reference)
     d1, d2 = result.values["d1"], result.values["d2_K"]
     label = f"$d_1$ = {d1:.4g}, $d_2$ = {d2:.4g} K, $T_{{ref}}$ = {reference:g} °C"
     above.plot(fine, curve, color=COLOURS[1], label=label)
-    below.plot(T, result.predicted - result.observed, **dots)
+    below.plot(T, (result.predicted - result.observed)[shown], **dots)
     above.set_ylabel(r"$\log_{10} a_T$ [-]")
     above.legend(fontsize=8)
     below.set_xlabel("temperature [°C]")

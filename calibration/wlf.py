@@ -119,7 +119,6 @@ def fit_wlf(
         "model": "wlf",
         **data.origin,
         "T_ref_C": reference,
-        "T_C": T.tolist(),
         **_about_rows(data),
         "version": version(),
     }
@@ -282,6 +281,12 @@ def _fitted(dT: Array, log_aT: Array) -> FitResult:
 
 
 def _wlf_problem(dT: Array, log_aT: Array) -> Problem:
+    pole = max(float(-dT.min()), 0.0) + _POLE_DISTANCE_K
+    whole = _wlf_problem_at(dT, log_aT, pole)
+    return replace(whole, subset=lambda rows: _wlf_problem_at(dT[rows], log_aT[rows], pole))
+
+
+def _wlf_problem_at(dT: Array, log_aT: Array, pole: float) -> Problem:
     def predict(theta: Array) -> Array:
         d1, d2, offset = theta
         return np.asarray(offset - d1 * dT / (d2 + dT))
@@ -291,7 +296,6 @@ def _wlf_problem(dT: Array, log_aT: Array) -> Problem:
         reached = d2 + dT
         return np.stack([-dT / reached, d1 * dT / reached**2, np.ones_like(dT)], axis=1)
 
-    pole = max(float(-dT.min()), 0.0) + _POLE_DISTANCE_K
     return Problem(
         names=("d1", "d2_K", "offset"),
         predict=predict,
@@ -305,6 +309,8 @@ def _wlf_problem(dT: Array, log_aT: Array) -> Problem:
 def _wlf_starts(problem: Problem, dT: Array, log_aT: Array) -> Array:
     """For a given d2 the shift is linear in d1 and the offset."""
     points = []
+    few = np.linspace(0, dT.size - 1, min(dT.size, 2_000)).round().astype(np.intp)
+    dT, log_aT = dT[few], log_aT[few]
     for d2 in problem.lower[1] + np.geomspace(5.0, 2000.0, 12):
         columns = np.stack([-dT / (d2 + dT), np.ones_like(dT)], axis=1)
         d1, offset = np.linalg.lstsq(columns, log_aT, rcond=None)[0]
