@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 _ENOUGH_TO_SEARCH = 300  # points that the starts are compared on when there are more
 _STAGES = (20_000,)  # points that the best one is refined on before all
 _TALL = 5_000  # rows from which a factorisation without Q is the faster solution
+_ARRIVED = 1e-9  # share of the sum of squares that another step may promise at a minimum
+_MOST_PASSES, _MOST_DAMPINGS = 10, 8  # over all rows, and tries of a shorter step in each
 _REFINED = 4  # rough minima, the lowest, that are refined
 _AGREEMENT = 1e-2  # rough minima whose cost is that close to the lowest count as the same
 
@@ -63,26 +65,74 @@ def _finished(
 ) -> optimize.OptimizeResult:
     """Minimum on all observations from the one on many of them.
 
-    That is close enough for Gauss-Newton steps, which need one pass over the data each, unless a
-    bound is active or they do not descend: then the trust region goes over all of them.
+    That is close enough for Gauss-Newton steps with the parameters at their bounds held there; each
+    needs one pass over the data. Where these do not arrive, the trust region goes over all rows.
     """
-    width = problem.upper - problem.lower
-    room = 1e-6 * np.where(np.isfinite(width), width, np.maximum(1.0, np.abs(near.x)))
-    inside = np.all(near.x - problem.lower > room) and np.all(problem.upper - near.x > room)
-    if loss == "linear" and inside:
-        r = problem.residuals(near.x)
-        near.fun, near.cost = r, 0.5 * float(r @ r)
-        best = _polished(problem, near)
-        if np.all(np.abs(_step(problem, best)) <= 1e-6 * np.maximum(np.abs(best.x), 1e-3)):
+    if loss == "linear":
+        best = _descended(problem, near)
+        if best is not None:
             return best
     return _lowest([_local(problem, near.x, loss, noise)])
 
 
-def _step(problem: Problem, best: optimize.OptimizeResult) -> Array:
-    J = problem.slopes(best.x)
+def _descended(problem: Problem, near: optimize.OptimizeResult) -> optimize.OptimizeResult | None:
+    """Gauss-Newton steps with the active bounds held; None where they reach no minimum."""
+    tiny = 1e-6 * np.maximum(1e-6, np.abs(near.x))
+    low, high = near.x - problem.lower <= tiny, problem.upper - near.x <= tiny
+    x = np.where(low, problem.lower, np.where(high, problem.upper, near.x))
+    held = {problem.names[k]: float(x[k]) for k in np.flatnonzero(low | high)}
+    if len(held) == x.size:
+        return None
+    free = ~(low | high)
+    reduced = problem.fixed(held)
+    x[free], r, arrived = _levenberg_marquardt(reduced, x[free])
+    descent = problem.slopes(x).T @ r
+    if np.any(descent[low] < 0.0) or np.any(descent[high] > 0.0):
+        return None
+    end = {} if arrived else {"message": "stopped short of the minimum of all rows"}
+    cost = 0.5 * float(r @ r)
+    return optimize.OptimizeResult(
+        {**near, "x": x, "fun": r, "cost": cost, "success": arrived, **end}
+    )
+
+
+def _levenberg_marquardt(problem: Problem, x: Array) -> tuple[Array, Array, bool]:
+    """Damped Gauss-Newton steps [1]_ that look at all rows once each; x, residuals, arrival."""
+    r = problem.residuals(x)
+    cost, damping, k = 0.5 * float(r @ r), 0.0, x.size
+    nothing = 1e-20 * float(np.sum(problem.observed**2))
+    for _ in range(_MOST_PASSES):
+        J = problem.slopes(x)
+        scale = np.linalg.norm(J, axis=0)
+        scale[scale == 0.0] = 1.0  # a parameter without influence stays
+        R = np.asarray(np.linalg.qr(np.column_stack([J / scale, r]), mode="r"))
+        A, q = R[:k, :k], R[:k, k]
+        if 0.5 * float(q @ q) <= _ARRIVED * cost + nothing:
+            return x, r, True
+        for _ in range(_MOST_DAMPINGS):
+            rows = np.vstack([A, np.sqrt(damping) * np.eye(k)])
+            trial = x - np.linalg.lstsq(rows, np.append(q, np.zeros(k)), rcond=None)[0] / scale
+            if np.all(trial > problem.lower) and np.all(trial < problem.upper):
+                with np.errstate(all="ignore"):
+                    moved = problem.residuals(trial)
+                    lower = 0.5 * float(moved @ moved)
+                if lower < cost:
+                    break
+            damping = max(10.0 * damping, 1e-6)
+        else:
+            return x, r, False
+        gained, x, r, cost = cost - lower, trial, moved, lower
+        if gained <= _ARRIVED * cost:
+            return x, r, True
+        damping *= 0.1
+    return x, r, False
+
+
+def _scaled_step(J: Array, r: Array) -> Array:
+    """Gauss-Newton step; a parameter without influence stays."""
     scale = np.linalg.norm(J, axis=0)
     scale[scale == 0.0] = 1.0
-    return -least_squares_solution(J / scale, best.fun) / scale
+    return np.asarray(-least_squares_solution(J / scale, r) / scale)
 
 
 def _lowest(results: list[optimize.OptimizeResult | None]) -> optimize.OptimizeResult:
@@ -163,11 +213,7 @@ def _local(
 def _polished(problem: Problem, best: optimize.OptimizeResult) -> optimize.OptimizeResult:
     """Gauss-Newton steps to the last digits, which the trust region's tolerances leave open."""
     for _ in range(20):
-        J = problem.slopes(best.x)
-        scale = np.linalg.norm(J, axis=0)
-        if not np.all(scale > 0.0):
-            return best
-        step = -least_squares_solution(J / scale, best.fun) / scale
+        step = _scaled_step(problem.slopes(best.x), best.fun)
         trial = best.x + step
         if np.any(trial <= problem.lower) or np.any(trial >= problem.upper):
             return best

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import treadfem
 from calibration import DataError, commands, fit_friction, fit_hyperelastic
 
 STRESS = "stretch,nominal_stress_N_per_mm2,mode\n"
@@ -228,7 +229,7 @@ def test_wrong_options_end_in_one_line(tmp_path, capsys):
 def test_an_output_folder_that_is_a_file_is_refused(tmp_path, capsys):
     path = tmp_path / "data.csv"
     path.write_text(STRESS + GOOD)
-    assert run(["hyperelastic", str(path), "-o", str(path)]) == 2
+    assert treadfem.main(["calibrate", "hyperelastic", str(path), "-o", str(path)]) == 2
     assert "expected a writable folder" in capsys.readouterr().err
 
 

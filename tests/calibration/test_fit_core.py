@@ -1,7 +1,10 @@
 """The least-squares core: exact answers, uncertainty, identifiability."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 
 from calibration.fit_core import Problem, correlation_of, fit
 
@@ -217,3 +220,60 @@ def test_as_many_points_as_parameters_leave_no_standard_errors():
 def test_fixing_everything_is_refused():
     with pytest.raises(ValueError, match="every parameter is fixed"):
         fit(line(X), np.zeros((1, 2)), fixed={"slope": 1.0, "offset": 0.0})
+
+
+def many_points(n=30_000, seed=4):
+    """An exponential with scatter on more points than the search and the stages look at."""
+    t = np.linspace(0.0, 3.0, n)
+    noise = np.random.default_rng(seed).normal(0.0, 0.05, n)
+
+    def problem(rows):
+        return Problem(
+            names=("A", "k"),
+            predict=lambda theta: theta[0] * np.exp(-theta[1] * t[rows]),
+            jacobian=lambda theta: np.stack(
+                [
+                    np.exp(-theta[1] * t[rows]),
+                    -theta[0] * t[rows] * np.exp(-theta[1] * t[rows]),
+                ],
+                axis=1,
+            ),
+            observed=(2.0 * np.exp(-0.7 * t) + noise)[rows],
+            lower=np.array([1e-9, 0.0]),
+            upper=np.array([np.inf, 10.0]),
+            subset=problem,
+        )
+
+    return problem(np.arange(n))
+
+
+def test_all_rows_of_a_large_table_count_to_the_last_digit():
+    problem = many_points()
+    found = fit(problem, np.array([[1.0, 0.1], [5.0, 3.0], [0.5, 2.0]]))
+    other = least_squares(
+        problem.residuals, [1.5, 0.5], jac=problem.slopes, xtol=1e-15, ftol=1e-15, gtol=1e-15
+    )
+    np.testing.assert_allclose(found.theta, other.x, rtol=1e-9)
+    J = problem.slopes(found.theta)
+    s2 = float(other.fun @ other.fun) / (len(other.fun) - 2)
+    np.testing.assert_allclose(found.covariance, s2 * np.linalg.inv(J.T @ J), rtol=1e-6)
+    assert found.warnings == ()
+
+
+def test_a_bound_that_is_active_on_all_rows_stays_active():
+    problem = replace(many_points(), lower=np.array([1e-9, 0.9]))  # the best k is 0.7
+    found = fit(problem, np.array([[1.0, 1.1], [5.0, 3.0]]))
+    assert found.values["k"] == pytest.approx(0.9, rel=1e-6)
+    held = problem.fixed({"k": found.values["k"]})
+    assert abs(float(held.slopes(found.theta[:1])[:, 0] @ held.residuals(found.theta[:1]))) < 1e-4
+
+
+def test_looking_at_all_rows_takes_few_passes():
+    problem, calls = many_points(), []
+    counted = replace(
+        problem,
+        predict=lambda theta: calls.append(1) or problem.predict(theta),
+        subset=problem.subset,
+    )
+    fit(counted, np.random.default_rng(2).uniform(0.1, 3.0, (20, 2)))
+    assert len(calls) <= 12
