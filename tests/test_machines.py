@@ -13,10 +13,12 @@ from pathlib import Path
 
 import pytest
 
+from fem import Case, simulate
 from tests.machines import (
     CALIBRATE,
     CASE,
     ENVIRONMENT,
+    ROOT,
     contents,
     is_one_line,
     run,
@@ -30,6 +32,7 @@ from tests.machines import (
 RUN, SWEEP = ("run", "case.toml"), ("sweep", "study.toml", "--workers", "2")
 #: Long enough to be met while it is running.
 LONG = ("--set", "loading.distance_mm=400")
+INTRODUCTORY = ROOT / "examples" / "introductory.toml"
 LIMIT_BYTES = 50_000
 
 
@@ -213,6 +216,7 @@ sys.exit(treadfem.main(sys.argv[1:]))
 FINE = ("--set", "block.mesh=fine", "--set", "loading.distance_mm=0.5", "--set", "output.vtu=false")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs /proc")
 def test_run_out_of_memory_keeps_its_steps_and_goes_on(folder):
     words = [*RUN, *FINE, "-o", "out", "--quiet"]
@@ -227,6 +231,25 @@ def test_run_out_of_memory_keeps_its_steps_and_goes_on(folder):
     assert run(folder, *words, "--resume") == (0, "", "")
     assert run(folder, *RUN, *FINE, "-o", "whole", "--quiet")[0] == 0
     assert contents(folder / "out") == contents(folder / "whole")
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+def test_simulation_out_of_memory_hands_back_its_steps(rigid, folder):
+    case = Case.from_toml(folder / "case.toml", {"block.rigid": rigid})
+    steps = []
+
+    def short(state):
+        steps.append(state)
+        if len(steps) == 3:
+            raise MemoryError
+
+    result = simulate(case, progress=short, checkpoint=folder / "checkpoint")
+    assert result.summary["status"] == "stopped"
+    assert result.summary["reason"] == "out of memory"
+    assert len(result.history) == 3
+    again = simulate(case, checkpoint=folder / "checkpoint", resume=True)
+    assert again.summary["status"] == "ok"
+    assert any(line.startswith("resumed after 3 steps") for line in again.log)
 
 
 def test_machine_without_memory_for_the_model_is_said_in_one_line(folder, monkeypatch, capsys):
@@ -331,6 +354,19 @@ def test_folder_of_somebody_else_gives_one_line(folder):
     assert "without permission" in errors
 
 
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: simulate({"loading": {}}),
+        lambda: simulate(Case.from_toml(INTRODUCTORY), progress=5),
+        lambda: simulate(Case.from_toml(INTRODUCTORY), checkpoint=5),
+    ],
+)
+def test_wrong_types_are_named(make):
+    with pytest.raises(TypeError, match=r"^(case|progress|checkpoint) is a (dict|int), expected"):
+        make()
+
+
 # -- two at once -----------------------------------------------------------------------------------
 
 SECOND = {
@@ -344,14 +380,14 @@ SECOND = {
 
 
 @pytest.mark.parametrize("pair", ["run and resume", "sweep and sweep", *slowly(*SECOND)[2:]])
-def test_second_program_in_a_folder_is_refused_in_one_line(pair, folder, undisturbed):
+def test_second_program_in_a_folder_is_refused_in_one_line(pair, folder):
     first, second = SECOND[pair]
-    (folder / "case.toml").write_text(CASE.replace("6.0", "30.0"))
+    (folder / "case.toml").write_text(CASE.replace("6.0", "400.0"))
     with start(folder, *first, "-o", "out") as process:
         wait_for((folder / "out" / ".lock").exists, process)
         code, _, errors = run(folder, *second, "-o", "out")
         assert process.poll() is None, "the first one has ended already"
-        process.kill() if "resume" not in pair else None
+        process.kill()
         own = without_warnings(process.communicate(timeout=60)[1])
     assert (code, is_one_line(errors)) == (2, True), errors
     assert "another run that is using it" in errors

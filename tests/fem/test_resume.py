@@ -275,3 +275,45 @@ def test_a_checkpoint_of_another_version_is_not_offered(tmp_path, monkeypatch):
     monkeypatch.setattr(fem.checkpoint, "program_version", lambda: "9.9+abc")
     with pytest.raises(CheckpointError, match="program version"):
         resumable(tmp_path, case)
+
+
+def test_a_result_of_another_version_is_not_offered(tmp_path, monkeypatch):
+    case = CASES["rigid"]
+    simulate(case).write(tmp_path)
+    assert resumable(tmp_path, case) == "finished"
+    monkeypatch.setattr("fem.resume.program_version", lambda: "9.9+abc")
+    with pytest.raises(CheckpointError, match=r"summary\.json: program version"):
+        resumable(tmp_path, case)
+
+
+@pytest.mark.parametrize(
+    "name", ["history.csv", "surface.csv", "summary.csv", "run.log", "case.toml", "road_0001.vtu"]
+)
+def test_a_result_without_one_of_its_files_is_not_finished(name, tmp_path):
+    case = CASES["rigid"]
+    simulate(case).write(tmp_path)
+    (tmp_path / name).unlink()
+    assert resumable(tmp_path, case) == "nothing"
+
+
+@pytest.mark.parametrize("edit", ["nan", "text", "shorter", "number"])
+def test_a_checkpoint_that_was_edited_is_refused(edit, run, tmp_path):
+    case, _, files = run
+    path = tmp_path / CHECKPOINT_FILE
+    with np.load(files[5]) as archive:
+        arrays = {name: archive[name] for name in archive.files}
+    name = max((n for n in arrays if n != "about"), key=lambda n: arrays[n].size)
+    if edit == "nan":
+        arrays[name] = np.full_like(arrays[name], np.nan, dtype=float)
+    elif edit == "text":
+        arrays[name] = arrays[name].astype(str)
+    elif edit == "shorter":
+        arrays[name] = arrays[name][:-1]
+    else:
+        about = arrays["about"].tobytes().replace(b'"rejected": ', b'"rejected": 1')
+        about = about.replace(b'"distance": ', b'"distance": 1')
+        arrays["about"] = np.frombuffer(about, dtype=np.uint8)
+    np.savez(path, **arrays)
+    with pytest.raises(CheckpointError, match="changed after it was written") as refusal:
+        simulate(case, checkpoint=path, resume=True)
+    assert "\n" not in str(refusal.value)

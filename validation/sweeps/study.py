@@ -140,9 +140,8 @@ def _short_names(path: Path, table: Any, keys: list[str]) -> dict[str, str]:
     names = _flat(table)
     for key, name in names.items():
         if key not in keys:
-            _refuse(
-                path, f"names.{key}", "a key that the study does not vary", suggestion(key, keys)
-            )
+            expected = suggestion(key, keys) if keys else "keys of the grid"
+            _refuse(path, f"names.{key}", "a key that the study does not vary", expected)
         if not isinstance(name, str) or not name:
             _refuse(path, f"names.{key}", describe(name), "a short name")
     return names

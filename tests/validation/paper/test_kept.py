@@ -81,3 +81,24 @@ def test_figure_that_could_not_be_made_is_tried_again(tmp_path, making):
 def test_every_source_of_validation_and_calibration_counts():
     names = {path.name for folder in module._FOLDERS for path in module._sources(folder)}
     assert {"fig9.py", "compounds.toml", "treloar1944.csv", "fit_core.py"} <= names
+
+
+@pytest.mark.parametrize("main", [None, 5, "../secret.txt", "/etc/passwd", "fig2.png"])
+def test_record_that_was_changed_leads_nowhere_else(tmp_path, making, main):
+    import json
+
+    (tmp_path.parent / "secret.txt").write_text("secret")
+    kept("fig1", tmp_path, making)
+    record = tmp_path / "made" / "fig1.json"
+    known = json.loads(record.read_text()) | {"main": main}
+    if main is None:
+        del known["main"]
+    record.write_text(json.dumps(known))
+    assert kept("fig1", tmp_path, making) == (tmp_path / "fig1.png", True)
+
+
+@pytest.mark.parametrize("text", ["", "5", "null", "{}", '{"files": 3}', "\udcff", "[" * 100000])
+def test_damaged_record_means_that_it_is_made_anew(tmp_path, making, text):
+    kept("fig1", tmp_path, making)
+    (tmp_path / "made" / "fig1.json").write_bytes(text.encode(errors="surrogateescape"))
+    assert kept("fig1", tmp_path, making).again

@@ -6,7 +6,8 @@ import pytest
 
 from fem.case_errors import CaseError
 from validation.paper.introductory import introductory_case
-from validation.sweeps.study import STUDIES, read_study
+from validation.sweeps.size import size_of_study
+from validation.sweeps.study import STUDIES, number_of_cases, read_study, some_cases
 
 
 def test_the_grid_is_the_full_product_in_the_order_of_the_file(write_study):
@@ -52,7 +53,15 @@ def test_a_study_without_grid_is_its_base_case(write_study):
         ('base = "case.toml"\n[grid]\n"loading.velocity" = [7.0]', "loading.velocity"),
         ('base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 0.0]', "zero"),
         ('base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 7.0]', "twice"),
+        ('base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7, 7.0]', "twice"),
         ('base = "case.toml"\ncase = 3', r"tables \[\[case\]\]"),
+        ('base = "case.toml"\ngrid = 5', "grid: found 5, expected a table"),
+        ('base = "case.toml"\nnames = "abc"', 'names: found "abc", expected a table'),
+        ('base = "case.toml"\n[names]\n"friction.law" = "law"', "does not vary"),
+        (
+            'base = "case.toml"\n[names]\n"block.height_mm" = 5\n[[case]]\n"block.height_mm" = 7.0',
+            "a short name",
+        ),
         ("base = ", "study.toml"),
     ],
 )
@@ -73,3 +82,54 @@ def test_the_base_of_the_studies_is_the_introductory_example():
     from fem.case import Case
 
     assert introductory_case() == Case.from_toml("examples/introductory.toml")
+
+
+def test_values_that_differ_only_in_replaced_characters_are_told_apart(write_study):
+    mesh = "{cells_x = 12, cells_y = 5, smallest_x_mm = 0.8, smallest_y_mm = 0.6}"
+    (write_study("").parent / "a b.toml").write_text("[rubber]\nbulk_ratio = 20.0\n")
+    (write_study("").parent / "a;b.toml").write_text("[rubber]\nbulk_ratio = 30.0\n")
+    path = write_study(
+        'base = "case.toml"\n[grid]\n"rubber.parameters" = ["a b.toml", "a;b.toml"]\n'
+        f'"block.mesh" = [{mesh}]'
+    )
+    cases = read_study(path)
+    assert [case.case.rubber.bulk_ratio for case in cases] == [20.0, 30.0]
+    assert len({case.name for case in cases}) == 2
+
+
+def test_files_of_a_study_are_looked_for_beside_it(write_study, tmp_path, monkeypatch):
+    (tmp_path / "mine.toml").write_text("[rubber]\nbulk_ratio = 20.0\n")
+    path = write_study('base = "case.toml"\n[grid]\n"rubber.parameters" = ["mine.toml"]')
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    (case,) = read_study(path)
+    assert case.case.rubber.bulk_ratio == 20.0
+
+
+def test_no_name_of_a_case_is_hidden_an_option_or_a_formula(write_study):
+    path = write_study(
+        'base = "case.toml"\n[names]\n"block.height_mm" = "-=."\n[grid]\n'
+        '"block.height_mm" = [7.0, 9.0]'
+    )
+    assert [case.name for case in read_study(path)] == ["7.0", "9.0"]
+
+
+def test_combinations_are_numbered_as_they_are_listed(write_study):
+    path = write_study(
+        'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0, 300.0]\n'
+        '"friction.law" = ["huemer", "exponential"]\n[[case]]\n[[case]]\n"block.height_mm" = 7.0'
+    )
+    cases = read_study(path)
+    assert number_of_cases(path) == len(cases) == 12
+    assert some_cases(path, 100) == [case.case for case in cases]
+    assert some_cases(path, 3) == [cases[number].case for number in (0, 5, 11)]
+
+
+def test_a_study_of_a_million_cases_is_counted_without_making_them(write_study):
+    values = ", ".join(f"{value}.0" for value in range(1, 1001))
+    path = write_study(
+        f'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [{values}]\n'
+        f'"loading.distance_mm" = [{values}]'
+    )
+    assert number_of_cases(path) == 10**6
+    assert size_of_study(path, 2).startswith("1000000 cases: about ")

@@ -352,6 +352,72 @@ def test_wrong_types_are_named(options, study):
     assert not Path("out").exists()
 
 
+def large(study):
+    values = ", ".join(f"{value}.0" for value in range(1, 1002))
+    study.write_text(f'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [{values}]\n')
+
+
+def test_large_study_is_refused_with_its_size_unless_asked_for(study, simulation, capsys):
+    large(study)
+    assert treadfem.main(["sweep", str(study), "-o", "out", "--workers", "1"]) == 2
+    errors = capsys.readouterr().err
+    assert "found 1001 cases: about" in errors
+    assert "--yes" in errors
+    assert len(errors.splitlines()) == 1
+    assert simulation.simulated == []
+    assert not Path("out").exists()
+
+
+@pytest.mark.parametrize("answer", [True, False])
+def test_large_study_is_begun_when_it_is_confirmed(answer, study, monkeypatch):
+    large(study)
+    asked = []
+
+    def confirm(size):
+        asked.append(size)
+        return answer
+
+    begun = []
+    monkeypatch.setattr("validation.sweeps.sweep._sweep", lambda cases, *_: begun.append(cases))
+    if answer:
+        sweep(study, "out", confirm=confirm)
+        assert len(begun[0]) == 1001
+    else:
+        with pytest.raises(CaseError, match="1001 cases"):
+            sweep(study, "out", confirm=confirm)
+        assert begun == []
+    assert len(asked) == 1
+
+
+@pytest.mark.parametrize("words, code", [([], 0), (["--strict"], 4)])
+def test_strict_sweep_with_a_warning_ends_with_code_4(words, code, study, simulation, monkeypatch):
+    def warned(case, **options):
+        result = simulation(case, **options)
+        result.summary["warnings"] = ["energy_error = 0.05 is above 0.01"]
+        return result
+
+    monkeypatch.setattr(sweep_case, "simulate", warned)
+    assert treadfem.main(["sweep", str(study), "-o", "out", "--workers", "1", *words]) == code
+
+
+@pytest.mark.parametrize("damage", ["5", "null", "[]", '{"status": 3}'])
+def test_damaged_summary_or_missing_table_means_not_done(damage, study, simulation):
+    run(study)
+    simulation.simulated.clear()
+    folders = [Path("out/runs") / row["case"] for row in rows()]
+    (folders[0] / "summary.json").write_text(damage)
+    (folders[2] / "history.csv").unlink()
+    run(study, resume=True)
+    assert simulation.simulated == [7.0, 300.0]
+
+
+def test_text_that_a_spreadsheet_would_run_is_quoted(study, simulation):
+    simulation.stops[7.0] = "=HYPERLINK(1)"
+    simulation.faults[50.0] = ValueError("plain")
+    run(study)
+    assert [row["reason"] for row in rows()] == ["'=HYPERLINK(1)", "ValueError: plain", ""]
+
+
 # -- progress --------------------------------------------------------------------------------------
 
 
