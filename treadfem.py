@@ -286,11 +286,14 @@ def _close(
 
 def _code(summary: dict[str, Any], *, said: Sequence[str], arguments: argparse.Namespace) -> int:
     """Exit code of a run; its warnings are printed, those of the case were `said` before."""
+    code = _STATUS_CODES.get(str(summary.get("status", "not converged")), NOT_CONVERGED)
+    if code != DONE:
+        # Why it has not finished is what matters; the summary has the warnings.
+        return code
     found = [warning for warning in summary.get("warnings") or [] if warning not in said]
     _warn(found)
-    code = _STATUS_CODES.get(str(summary.get("status", "not converged")), NOT_CONVERGED)
     counted = bool(found) or (bool(said) and not arguments.accept_unusual)
-    return WARNED if code == DONE and counted and arguments.strict else code
+    return WARNED if counted and arguments.strict else DONE
 
 
 def _summary_table(summary: dict[str, Any]) -> str:
@@ -484,7 +487,8 @@ def _add_table(commands: Any) -> None:
 
 def _in_folder(command: Callable[[argparse.Namespace], int], arguments: argparse.Namespace) -> int:
     """Execute a command while its folder is nobody else's."""
-    with output_folder(arguments.output, folders=("made", "runs")):
+    folder = chosen_output(arguments.output, Path(_PAPER))
+    with output_folder(folder, folders=("made", "runs")):
         return command(arguments)
 
 
@@ -636,7 +640,8 @@ def _add_report(commands: Any) -> None:
 def _report(arguments: argparse.Namespace) -> int:
     from validation.report.write import write_report
 
-    figures, path = Path(arguments.figures), Path(arguments.output)
+    figures = Path(arguments.figures)
+    path = chosen_output(arguments.output, Path("results/report.html"))
     if not figures.is_dir():
         raise CaseError(
             file=str(figures),
