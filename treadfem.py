@@ -213,7 +213,8 @@ def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
 
 def _draw(case: Case, directory: Path, *, missing_only: bool = False) -> None:
     """Draw the figures of a run that is written."""
-    last = directory / "figures" / ("final_state.png" if case.output.vtu else "surface.png")
+    without_fields = "surface.png" if case.block.rigid else "onset.png"
+    last = directory / "figures" / ("final_state.png" if case.output.vtu else without_fields)
     if case.output.figures and not (missing_only and last.exists()):
         from validation.drawing.run_figures import write_run_figures
 

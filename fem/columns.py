@@ -50,6 +50,24 @@ SURFACE = (
     "T_C",
 )
 
+#: `boundary.csv`: every free boundary node at the end, chain by chain. `s_mm` is the undeformed
+#: length along the chain, `X_mm` and `Y_mm` are reference coordinates, `x_mm` and `y_mm` current
+#: ones in the platen's frame.
+BOUNDARY = (
+    "block",
+    "chain",
+    "s_mm",
+    "X_mm",
+    "Y_mm",
+    "x_mm",
+    "y_mm",
+    "status",
+    "pressure_N_per_mm2",
+    "shear_N_per_mm2",
+    "slip_velocity_mm_per_s",
+    "T_C",
+)
+
 #: `summary.json` and the one row of `summary.csv`.
 SUMMARY = (
     "status",

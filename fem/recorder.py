@@ -9,6 +9,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fem.audit import EnergyAudit
+from fem.bottom_history import BottomHistory
+from fem.boundary_table import BoundaryContact, boundary_table
 from fem.case import Case
 from fem.coupling import AcceptedStep, CoupledModel, CoupledState
 from fem.fitted_window import contact_columns, rubber_columns
@@ -35,6 +37,8 @@ class Recorder:
         self.case, self.model = case, model
         self.rows: list[dict[str, Any]] = []
         self.snapshots: list[Snapshot] = []
+        self.kinds: list[NDArray[Any]] = []
+        self.pressures: list[NDArray[Any]] = []
         self.smallest_J = np.inf
 
     @property
@@ -63,6 +67,7 @@ class Recorder:
         row |= {"slipping_nodes": int(status.slipping.sum())}
         row |= self._window_columns(step)
         self.rows.append(row)
+        self._record_bottom(step)
         return row
 
     def _window_columns(self, step: AcceptedStep) -> dict[str, float]:
@@ -117,36 +122,53 @@ class Recorder:
             )
         )
 
-    def surface(self, state: CoupledState) -> pd.DataFrame:
-        """Table of the bottom surface, from the trailing to the leading corner."""
-        mesh, contact = self.mesh, state.contact
-        place = np.full(len(mesh.points), -1)
-        place[self.model.mechanics.candidates] = np.arange(contact.length.size)
-        at = place[mesh.bottom]
-        x = mesh.points[mesh.bottom] + state.mechanics.u[mesh.bottom]
-        length = np.maximum(contact.length[at], 1e-300)
-        return pd.DataFrame(
-            {
-                "X_mm": mesh.bottom_coordinate,
-                "x_mm": x[:, 0],
-                "y_mm": x[:, 1],
-                "in_contact": contact.status.active[at],
-                "pressure_N_per_mm2": contact.pressure[at],
-                "shear_N_per_mm2": contact.shear[at] / length,
-                "slip_velocity_mm_per_s": contact.slip_velocity[at],
-                "T_C": state.heat.T[mesh.bottom],
-                "status": np.array(["open", "stick", "slip"])[contact.status.kind[at]],
-            }
+    def boundary(self, state: CoupledState) -> pd.DataFrame:
+        """Table of the free boundary of an accepted state."""
+        contact = state.contact
+        # The length of an open node is 0, and so is its shear force.
+        shear = contact.shear / np.maximum(contact.length, 1e-300)
+        return boundary_table(
+            self.mesh,
+            state.mechanics.u,
+            state.heat.T,
+            BoundaryContact(
+                kind=contact.status.kind, pressure=contact.pressure, shear=shear,
+                slip_velocity=contact.slip_velocity,
+            ),
+        )  # fmt: skip
+
+    def bottom(self, rows: int | None = None) -> BottomHistory:
+        """Stick, slip and pressure along the bottom in the first rows of the history."""
+        X = self.mesh.bottom_coordinate
+        return BottomHistory(
+            X_mm=X,
+            kind=np.array(self.kinds[:rows], dtype=np.int8).reshape(-1, X.size),
+            pressure=np.array(self.pressures[:rows], dtype=np.float32).reshape(-1, X.size),
         )
+
+    def go_on_from(self, bottom: BottomHistory) -> None:
+        """Take over what was recorded along the bottom before an interruption."""
+        self.kinds, self.pressures = list(bottom.kind), list(bottom.pressure)
+
+    def _record_bottom(self, step: AcceptedStep) -> None:
+        first = len(self.mesh.rear) - 2
+        bottom = slice(first, first + len(self.mesh.bottom))
+        contact = step.after.contact
+        self.kinds.append(contact.status.kind[bottom].astype(np.int8))
+        self.pressures.append(contact.pressure[bottom].astype(np.float32))
 
 
 def temperature_columns(mesh: BlockMesh, T_C: FloatArray, ambient_C: float) -> dict[str, float]:
-    """T_max, T_edge and A_T of the bottom surface from the nodal temperatures `T_C` (n,)."""
+    """T_max, T_edge and A_T from the nodal temperatures `T_C` (n,).
+
+    The front edge may have rolled under: it is the leading part of the bottom (see
+    `interior_peak`) and the leading face.
+    """
     X, T = mesh.bottom_coordinate, T_C[mesh.bottom]
     peak = interior_peak(X, T)
     return {
         "T_max_C": peak.T_max_C,
-        "T_edge_C": peak.T_edge_C,
+        "T_edge_C": max(peak.T_edge_C, float(T_C[mesh.front].max())),
         "A_T_K_mm": excess_area(X, T, ambient_C),
     }
 

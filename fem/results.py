@@ -13,9 +13,11 @@ import numpy as np
 import pandas as pd
 
 from fem.atomic_files import staged_directory
+from fem.bottom_history import BOTTOM_FILE, BottomHistory
+from fem.boundary_table import surface_table
 from fem.case import Case
 from fem.case_errors import describe
-from fem.columns import HISTORY, SUMMARY, SURFACE, in_order
+from fem.columns import BOUNDARY, HISTORY, SUMMARY, SURFACE, in_order
 from fem.snapshot import BlockGeometry, Snapshot
 from fem.vtu import FIELD_COLLECTIONS, collected, read_fields, write_fields
 
@@ -23,12 +25,21 @@ CASE_FILE = "case.toml"
 LOG_FILE = "run.log"
 HISTORY_FILE = "history.csv"
 SURFACE_FILE = "surface.csv"
+BOUNDARY_FILE = "boundary.csv"
 SUMMARY_JSON = "summary.json"
 SUMMARY_CSV = "summary.csv"
 FIELD_FILES = ("block_*.vtu", "road_*.vtu", *FIELD_COLLECTIONS)
 FIGURES_FOLDER = "figures"
 #: Files of every run, fields or not.
-RUN_FILES = (CASE_FILE, LOG_FILE, HISTORY_FILE, SURFACE_FILE, SUMMARY_CSV, SUMMARY_JSON)
+RUN_FILES = (
+    CASE_FILE,
+    LOG_FILE,
+    HISTORY_FILE,
+    SURFACE_FILE,
+    BOUNDARY_FILE,
+    SUMMARY_CSV,
+    SUMMARY_JSON,
+)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,6 +54,8 @@ class Result:
         One row per accepted step, columns of `fem.columns.HISTORY`.
     surface : DataFrame
         The bottom surface at the end, columns of `fem.columns.SURFACE`.
+    boundary : DataFrame
+        The free boundary at the end, columns of `fem.columns.BOUNDARY`.
     summary : dict
         The keys of `fem.columns.SUMMARY`, and a reason where the status is not "ok".
     geometry : BlockGeometry
@@ -51,15 +64,19 @@ class Result:
         Fields at the recorded steps, the last one at the end of the run.
     log : tuple of str
         Lines of the run's log.
+    bottom : BottomHistory or None
+        Stick, slip and pressure along the bottom at every accepted step; none of a rigid block.
     """
 
     case: Case
     history: pd.DataFrame
     surface: pd.DataFrame
+    boundary: pd.DataFrame
     summary: dict[str, Any]
     geometry: BlockGeometry
     snapshots: list[Snapshot] = field(default_factory=list)
     log: tuple[str, ...] = ()
+    bottom: BottomHistory | None = None
 
     @classmethod
     def from_rows(
@@ -67,10 +84,12 @@ class Result:
         case: Case,
         geometry: BlockGeometry,
         rows: Sequence[Mapping[str, Any]],
-        surface: pd.DataFrame | Mapping[str, Any],
+        boundary: pd.DataFrame,
         summary: Mapping[str, Any],
         snapshots: Sequence[Snapshot],
         log: Sequence[str] = (),
+        *,
+        bottom: BottomHistory | None = None,
     ) -> Result:
         """Build a result from what the recorder collected.
 
@@ -78,8 +97,8 @@ class Result:
         ----------
         rows : sequence of mappings
             One per accepted step, with at least the keys of `fem.columns.HISTORY`.
-        surface : DataFrame or mapping of columns
-            At least the columns of `fem.columns.SURFACE`.
+        boundary : DataFrame
+            At least the columns of `fem.columns.BOUNDARY`; the surface is its bottom.
         summary : mapping
             At least the keys of `fem.columns.SUMMARY`.
 
@@ -93,11 +112,13 @@ class Result:
         return cls(
             case=case,
             history=_table(pd.DataFrame(list(rows)), HISTORY, "history"),
-            surface=_table(pd.DataFrame(surface), SURFACE, "surface"),
+            boundary=_table(boundary, BOUNDARY, "boundary"),
+            surface=_table(surface_table(boundary), SURFACE, "surface"),
             summary={key: summary[key] for key in in_order(list(summary), SUMMARY, "summary")},
             geometry=geometry,
             snapshots=list(snapshots),
             log=tuple(log),
+            bottom=bottom,
         )
 
     def write(self, directory: str | Path) -> None:
@@ -106,12 +127,15 @@ class Result:
         Everything is written into a temporary folder first; see `staged_directory`.
         """
         # Figures of an earlier result are drawn anew from this one, or they are not there.
-        outdated = (*FIELD_FILES, f"{FIGURES_FOLDER}/*.png")
+        outdated = (*FIELD_FILES, BOTTOM_FILE, f"{FIGURES_FOLDER}/*.png")
         with staged_directory(directory, outdated=outdated, last=SUMMARY_JSON) as stage:
             (stage / CASE_FILE).write_text(self.case.to_toml(), encoding="utf-8")
             (stage / LOG_FILE).write_text("".join(f"{x}\n" for x in self.log), encoding="utf-8")
             self.history.to_csv(stage / HISTORY_FILE, index=False, lineterminator="\n")
             self.surface.to_csv(stage / SURFACE_FILE, index=False, lineterminator="\n")
+            self.boundary.to_csv(stage / BOUNDARY_FILE, index=False, lineterminator="\n")
+            if self.bottom is not None:
+                self.bottom.write(stage / BOTTOM_FILE)
             write_summary(stage, self.summary)
             if self.case.output.vtu and self.snapshots:
                 write_fields(stage, self.geometry, self.snapshots)
@@ -127,14 +151,17 @@ class Result:
         """
         directory = Path(directory)
         geometry, snapshots = read_fields(directory)
+        bottom = directory / BOTTOM_FILE
         return cls(
             case=Case.from_toml(_existing(directory / CASE_FILE)),
             history=read_table(directory / HISTORY_FILE, HISTORY),
             surface=read_table(directory / SURFACE_FILE, SURFACE),
+            boundary=read_table(directory / BOUNDARY_FILE, BOUNDARY),
             summary=read_summary(directory),
             geometry=geometry,
             snapshots=snapshots,
             log=tuple(_existing(directory / LOG_FILE).read_text(encoding="utf-8").splitlines()),
+            bottom=BottomHistory.read(bottom) if bottom.is_file() else None,
         )
 
 

@@ -13,7 +13,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from contact.active_set import OPEN, SLIP
 from fem.balance import balance_error, share
+from fem.boundary_table import BoundaryContact, boundary_table
 from fem.case import Case
 from fem.checkpoint import Checkpoint, notes
 from fem.fitted_window import contact_columns, window_notes, window_warnings
@@ -200,23 +202,19 @@ class _RigidRun:
             )
         )
 
-    def surface(self) -> pd.DataFrame:
-        """Table of the bottom surface, from the trailing to the leading corner."""
-        mesh, pressure = self.mesh, self.sliding.pressure
-        count = len(mesh.bottom)
-        return pd.DataFrame(
-            {
-                "X_mm": mesh.bottom_coordinate,
-                "x_mm": mesh.points[mesh.bottom, 0],
-                "y_mm": mesh.points[mesh.bottom, 1],
-                "in_contact": np.ones(count, dtype=bool),
-                "pressure_N_per_mm2": np.full(count, pressure),
-                "shear_N_per_mm2": -mesh.direction * self._coefficient() * pressure,
-                "slip_velocity_mm_per_s": np.full(count, self.sliding.velocity),
-                "T_C": self.heat.T[mesh.bottom],
-                "status": np.full(count, "slip"),
-            }
+    def boundary(self) -> pd.DataFrame:
+        """Table of the free boundary: all of the bottom slips, the faces are open."""
+        on_bottom = np.isin(self.mesh.boundary[1:-1], self.mesh.bottom)
+        shear = np.zeros(on_bottom.size)
+        shear[on_bottom] = -self.mesh.direction * self._coefficient() * self.sliding.pressure
+        contact = BoundaryContact(
+            kind=np.where(on_bottom, SLIP, OPEN),
+            pressure=np.where(on_bottom, self.sliding.pressure, 0.0),
+            shear=shear,
+            slip_velocity=np.full(on_bottom.size, self.sliding.velocity),
         )
+        at_rest = np.zeros_like(self.mesh.points)
+        return boundary_table(self.mesh, at_rest, self.heat.T, contact)
 
     def summary(self, outcome: Outcome) -> dict[str, Any]:
         """Scalars of the run."""
@@ -285,7 +283,7 @@ def simulate_rigid(
         case,
         run.geometry,
         run.rows,
-        run.surface(),
+        run.boundary(),
         summary,
         run.snapshots,
         log=[

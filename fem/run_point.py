@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.audit import EnergyAudit
+from fem.bottom_history import BottomHistory
 from fem.case import Case
 from fem.coupling import CoupledState
 from fem.heat import HeatState
@@ -98,6 +99,8 @@ class Records:
         Lines of the log.
     wall_s, solver_s : float
         Time spent, and the part of it in the linear solver [s].
+    bottom : BottomHistory or None
+        Stick, slip and pressure along the bottom; none of a rigid block.
     """
 
     history: dict[str, Array]
@@ -105,6 +108,7 @@ class Records:
     log: list[str]
     wall_s: float
     solver_s: float = 0.0
+    bottom: BottomHistory | None = None
 
     @property
     def rows(self) -> list[dict[str, Any]]:

@@ -146,7 +146,7 @@ class _Run:
         records = Records(
             history=columns(recorder.rows[: point.rows]),
             snapshots=recorder.snapshots[: point.snapshots], log=self.log[: point.log],
-            wall_s=self.wall, solver_s=self.solver_seconds,
+            wall_s=self.wall, solver_s=self.solver_seconds, bottom=recorder.bottom(point.rows),
         )  # fmt: skip
         return RunRecord(point=point, records=records)
 
@@ -156,6 +156,8 @@ class _Run:
         self.point, self.state, self.audit = point, point.state, point.audit
         self.iterations, self.rejected = point.iterations, point.rejected
         recorder.rows, recorder.snapshots = records.rows, records.snapshots
+        if records.bottom is not None:
+            recorder.go_on_from(records.bottom)
         recorder.smallest_J = point.smallest_J
         distance = recorder.rows[-1]["sliding_distance_mm"] if recorder.rows else 0.0
         self.snapshot_distances = snapshots_due(self.case, distance)
@@ -286,7 +288,7 @@ def simulate(
         case,
         recorder.geometry,
         recorder.rows,
-        recorder.surface(run.state),
+        recorder.boundary(run.state),
         summary,
         recorder.snapshots,
         log=[
@@ -295,6 +297,7 @@ def simulate(
             *window_notes(case, recorder.rows),
             *closing_lines(outcome, summary["warnings"]),
         ],
+        bottom=recorder.bottom(),
     )
 
 

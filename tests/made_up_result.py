@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from fem.bottom_history import BottomHistory
+from fem.boundary_table import BoundaryContact, boundary_table
 from fem.case import Case
-from fem.columns import HISTORY, SURFACE
+from fem.columns import HISTORY
 from fem.mesh import BlockMesh, Grading, block_mesh
 from fem.program_version import program_version
 from fem.results import Result
@@ -75,23 +77,29 @@ def made_up_history(rows: int = 60) -> pd.DataFrame:
     return pd.DataFrame(table)
 
 
-def made_up_surface(mesh: BlockMesh, snapshot: Snapshot) -> pd.DataFrame:
-    """Bottom surface of a snapshot, in contact between 3 and 17 mm."""
-    current = mesh.points[mesh.bottom] + snapshot.displacement[mesh.bottom]
-    X = mesh.bottom_coordinate
-    inside = (X > 3.0) & (X < 17.0)
+def made_up_boundary(mesh: BlockMesh, snapshot: Snapshot) -> pd.DataFrame:
+    """Free boundary of a snapshot, its bottom in contact between 3 and 17 mm."""
+    nodes = mesh.boundary[1:-1]
+    X, Y = mesh.points[nodes].T
+    inside = (Y == 0.0) & (X > 3.0) & (X < 17.0)
     pressure = np.where(inside, 0.3 + 0.4 * np.exp(-((X - 16.0) ** 2)), 0.0)
-    columns = (
-        X,
-        current[:, 0],
-        np.where(inside, 0.0, np.abs(current[:, 1])),
-        inside,
-        pressure,
-        0.9 * pressure,
-        np.where(inside, 300.0, 0.0),
-        snapshot.temperature[mesh.bottom],
-    )
-    return pd.DataFrame(dict(zip(SURFACE, columns, strict=True)))
+    u = snapshot.displacement.copy()
+    current = np.where(inside, 0.0, np.abs(Y + u[nodes, 1]))
+    u[nodes, 1] = current - Y
+    contact = BoundaryContact(
+        kind=np.where(inside, 2, 0), pressure=pressure, shear=0.9 * pressure,
+        slip_velocity=np.where(inside, 300.0, 0.0),
+    )  # fmt: skip
+    return boundary_table(mesh, u, snapshot.temperature, contact)
+
+
+def made_up_bottom(mesh: BlockMesh, rows: int = 60) -> BottomHistory:
+    """A bottom that sticks at first and slips from the rear on."""
+    X, k = mesh.bottom_coordinate, np.arange(rows)[:, None]
+    inside = (X > 3.0) & (X < 17.0)
+    kind = np.where(inside, np.where(k > X, 2, 1), 0).astype(np.int8)
+    pressure = np.where(inside, 0.3 + 0.01 * k, 0.0).astype(np.float32)
+    return BottomHistory(X_mm=X, kind=kind, pressure=pressure)
 
 
 def made_up_summary() -> dict[str, object]:
@@ -129,8 +137,9 @@ def made_up_result(grading: Grading | None = None, snapshots: int = 2, **loading
         made_up_case(**loading),
         BlockGeometry(points=mesh.points, cells=mesh.cells),
         made_up_history().to_dict("records"),
-        made_up_surface(mesh, series[-1]),
+        made_up_boundary(mesh, series[-1]),
         made_up_summary(),
         series,
         log=("treadfem, made-up result",),
+        bottom=made_up_bottom(mesh),
     )

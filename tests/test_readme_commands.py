@@ -99,7 +99,7 @@ def made_up(case: Case, **options: object) -> Result:
         case,
         result.geometry,
         result.history.to_dict("records"),
-        result.surface,
+        result.boundary,
         result.summary,
         snapshots,
     )

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fem.columns import HISTORY, SUMMARY, SURFACE
+from fem.columns import BOUNDARY, HISTORY, SUMMARY, SURFACE
 from fem.results import Result, read_summary, write_summary
 from tests.made_up_result import made_up_result, made_up_summary
 
@@ -24,7 +24,7 @@ def from_parts(result: Result, **changed: object) -> Result:
         "case": result.case,
         "geometry": result.geometry,
         "rows": result.history.to_dict("records"),
-        "surface": result.surface,
+        "boundary": result.boundary,
         "summary": result.summary,
         "snapshots": result.snapshots,
     }
@@ -39,6 +39,8 @@ def test_a_written_result_has_all_files_with_the_required_columns_first(result, 
         "run.log",
         "history.csv",
         "surface.csv",
+        "boundary.csv",
+        "bottom.npz",
         "summary.json",
         "summary.csv",
         "block_0000.vtu",
@@ -51,7 +53,9 @@ def test_a_written_result_has_all_files_with_the_required_columns_first(result, 
     header = (tmp_path / "run" / "history.csv").read_text().splitlines()[0]
     assert header == ",".join(HISTORY)
     header = (tmp_path / "run" / "surface.csv").read_text().splitlines()[0]
-    assert header == ",".join(SURFACE)
+    assert header.startswith(",".join(SURFACE))
+    header = (tmp_path / "run" / "boundary.csv").read_text().splitlines()[0]
+    assert header == ",".join(BOUNDARY)
     columns = (*SUMMARY, "program_version")
     assert tuple(json.loads((tmp_path / "run" / "summary.json").read_text())) == columns
     one_row = pd.read_csv(tmp_path / "run" / "summary.csv")
@@ -64,6 +68,9 @@ def test_reading_gives_back_what_was_written_to_the_last_digit(result, tmp_path)
     again = Result.read(tmp_path)
     pd.testing.assert_frame_equal(again.history, result.history, check_exact=True)
     pd.testing.assert_frame_equal(again.surface, result.surface, check_exact=True)
+    pd.testing.assert_frame_equal(again.boundary, result.boundary, check_exact=True)
+    for name in ("X_mm", "kind", "pressure"):
+        np.testing.assert_array_equal(getattr(again.bottom, name), getattr(result.bottom, name))
     assert again.summary == result.summary
     assert again.case == result.case
     assert again.snapshots == result.snapshots
@@ -76,9 +83,9 @@ def test_extra_columns_follow_the_required_ones(result):
     assert tuple(from_parts(result, rows=rows).history.columns) == (*HISTORY, "extra_N")
 
 
-@pytest.mark.parametrize("part, column", [("rows", "T_max_C"), ("surface", "shear_N_per_mm2")])
+@pytest.mark.parametrize("part, column", [("rows", "T_max_C"), ("boundary", "shear_N_per_mm2")])
 def test_a_missing_column_is_named(result, part, column):
-    parts = {"rows": result.history, "surface": result.surface}
+    parts = {"rows": result.history, "boundary": result.boundary}
     table = parts[part].drop(columns=column)
     changed = table.to_dict("records") if part == "rows" else table
     with pytest.raises(ValueError, match=column):

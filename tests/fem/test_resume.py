@@ -64,7 +64,7 @@ def uninterrupted(case, folder):
 
 def assert_same(resumed, reference):
     assert resumed.summary["status"] == "ok"
-    for table in ("history", "surface"):
+    for table in ("history", "surface", "boundary"):
         one, other = getattr(resumed, table), getattr(reference, table)
         assert (one.dtypes == other.dtypes).all()
         assert list(one.columns) == list(other.columns)
@@ -73,6 +73,10 @@ def assert_same(resumed, reference):
                 np.testing.assert_allclose(one[name], other[name], rtol=1e-10, atol=1e-10)
             else:
                 assert (one[name] == other[name]).all()
+    if reference.bottom is not None:
+        for name in ("X_mm", "kind", "pressure"):
+            one, other = getattr(resumed.bottom, name), getattr(reference.bottom, name)
+            np.testing.assert_array_equal(one, other)
     assert list(resumed.summary) == list(reference.summary)
     for key, value in reference.summary.items():
         if isinstance(value, (str, list)):

@@ -29,7 +29,7 @@ def made_up_run(**overrides: object) -> StudyRun:
         case,
         result.geometry,
         result.history.to_dict("records"),
-        result.surface,
+        result.boundary,
         summary,
         result.snapshots,
     )

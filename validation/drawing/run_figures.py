@@ -1,4 +1,4 @@
-"""The pictures of one run: history, bottom surface, final state."""
+"""The pictures of one run: history, bottom surface, onset of sliding, final state."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
+from fem.bottom_history import BOTTOM_FILE, BottomHistory
 from fem.columns import HISTORY, SURFACE
 from fem.results import HISTORY_FILE, SURFACE_FILE, Result, read_summary, read_table
 from validation.drawing.history_panels import (
@@ -17,12 +18,14 @@ from validation.drawing.history_panels import (
     draw_surface_traction,
     draw_temperature,
 )
+from validation.drawing.onset_panels import draw_onset
 from validation.drawing.state_panels import PANELS, WIDTHS, draw_fields, last_state
 from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
 
 
 def write_run_figures(directory: str | Path) -> list[Path]:
-    """Draw what a run's folder holds into its `figures`: `history`, `surface`, `final_state`.
+    """Draw what a run's folder holds into its `figures`: `history`, `surface`, `onset`,
+    `final_state`.
 
     Parameters
     ----------
@@ -44,6 +47,9 @@ def write_run_figures(directory: str | Path) -> list[Path]:
         paths.append(save(draw_history(history), figures / "history.png"))
     if len(surface) > 1:
         paths.append(save(draw_surface(surface, T_max), figures / "surface.png"))
+    if (directory / BOTTOM_FILE).is_file() and history["sliding_distance_mm"].max() > 0.0:
+        bottom = BottomHistory.read(directory / BOTTOM_FILE)
+        paths.append(save(draw_onset(history, bottom), figures / "onset.png"))
     if any(directory.glob("block_*.vtu")):
         paths.append(save(draw_final_state(Result.read(directory)), figures / "final_state.png"))
     return paths

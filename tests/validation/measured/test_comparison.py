@@ -152,7 +152,7 @@ def write_run(folder: Path, **keys: object) -> Result:
     case = Case.from_dict(result.case.to_dict(), overrides=keys | {"output.vtu": False})
     summary = result.summary | {"mean_contact_pressure_N_per_mm2": 0.3}
     history = result.history.to_dict("records")
-    made = Result.from_rows(case, result.geometry, history, result.surface, summary, [])
+    made = Result.from_rows(case, result.geometry, history, result.boundary, summary, [])
     made.write(folder)
     return made
 

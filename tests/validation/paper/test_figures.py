@@ -84,7 +84,8 @@ def test_every_figure_can_be_asked_for_by_its_number():
 def test_pictures_of_a_run_are_written_into_its_folder(tmp_path, result):
     result.write(tmp_path)
     paths = run_figures.write_run_figures(tmp_path)
-    assert sorted(path.name for path in paths) == ["final_state.png", "history.png", "surface.png"]
+    names = ["final_state.png", "history.png", "onset.png", "surface.png"]
+    assert sorted(path.name for path in paths) == names
     assert {path.parent for path in paths} == {tmp_path / "figures"}
 
 
@@ -93,12 +94,12 @@ def test_pictures_of_a_run_without_field_files_leave_out_the_final_state(tmp_pat
     for path in tmp_path.glob("*.vtu"):
         path.unlink()
     names = [path.name for path in run_figures.write_run_figures(tmp_path)]
-    assert names == ["history.png", "surface.png"]
+    assert names == ["history.png", "surface.png", "onset.png"]
 
 
 def test_a_run_without_accepted_steps_has_no_pictures(tmp_path, result):
     empty = Result.from_rows(
-        result.case, result.geometry, [], result.surface.iloc[:0], result.summary, []
+        result.case, result.geometry, [], result.boundary.iloc[:0], result.summary, []
     )
     empty.write(tmp_path)
     assert run_figures.write_run_figures(tmp_path) == []
