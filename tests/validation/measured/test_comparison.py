@@ -18,7 +18,7 @@ from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
 from validation.measured.comparison import compare, simulated_runs, statistics
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
-from validation.measured.matching import matching
+from validation.measured.matching import matched, matching
 from validation.measured.measurements import read_measurements
 from validation.paper import fig11, fig12
 from validation.sweeps.study_runs import StudyRun
@@ -84,6 +84,48 @@ def test_other_conditions_do_not_match(changes):
     runs = pd.DataFrame([simulated()])
     assert len(matching(point(), runs)) == 1
     assert matching(point(**changes), runs).empty
+
+
+def test_rises_are_compared_where_the_start_temperatures_differ():
+    tests = measured({"T_max_C": 33.0, "T_0_C": 23.0}, {"T_max_C": 36.0, "T_0_C": 23.0})
+    found = compare(tests, pd.DataFrame([simulated(T_max_C=30.0, T_0_C=20.0)]))
+    assert found.table["error"].tolist() == pytest.approx([0.0, -3.0])
+    assert found.table["relative_error"].tolist() == pytest.approx([0.0, -3.0 / 13.0])
+    assert found.table["T_0_measured_C"].tolist() == [23.0, 23.0]
+    assert "up to 3 K from the T_0_C of the tests" in found.notes[0]
+    assert not compare(tests, pd.DataFrame([simulated(T_0_C=23.0)])).notes
+
+
+def test_of_several_start_temperatures_the_nearest_is_taken():
+    runs = pd.DataFrame([simulated(case=f"{T:g}", T_0_C=T) for T in (16.0, 20.0, 25.0)])
+    for start, case in ((21.0, "20"), (23.0, "25"), (12.0, "16")):
+        assert list(matching(point(T_0_C=start), runs)["case"]) == [case]
+    assert matching(point(T_0_C=40.0), runs).empty
+
+
+@pytest.mark.parametrize("pressures", [(0.3,), (0.29, 0.3, 0.31, 0.5)])
+def test_many_tests_match_as_each_does_alone(pressures):
+    rng = np.random.default_rng(0)
+    runs = pd.DataFrame(
+        [
+            simulated(case=f"{law}{p}{v}", law=law, variant=law, p_N_per_mm2=p, v_mm_per_s=v)
+            for law in ("huemer", "exponential")
+            for p in pressures
+            for v in (7.0, 50.0)
+        ]
+    )
+    stated = {
+        "p_N_per_mm2": rng.choice([0.28, 0.302, 0.4, np.nan], 60),
+        "v_mm_per_s": rng.choice([7.0, 50.0, 300.0], 60),
+        "law": rng.choice(["", "huemer"], 60),
+        "compound": rng.choice(["", YEOH, VDW], 60),
+    }
+    points = read_measurements(pd.DataFrame({"T_max_C": 30.0, **stated})).points
+    tests, found = matched(points, runs)
+    for i, own in points.iterrows():
+        alone = matching(dict(own), runs)["case"].tolist()
+        assert runs["case"].iloc[found[tests == i]].tolist() == alone
+        assert len(alone) <= 2 * len(pressures)
 
 
 def test_test_that_does_not_state_its_velocity_is_refused_if_several_were_simulated():
