@@ -57,7 +57,7 @@ class Cost:
     def __str__(self) -> str:
         return (
             f"about {self.elements} elements, {max(self.steps, self.heat_steps)} steps, "
-            f"{_duration(self.seconds)} on one core, {self.gigabytes:.1f} GB"
+            f"{duration(self.seconds)} on one core, {self.gigabytes:.1f} GB"
         )
 
 
@@ -131,7 +131,7 @@ def _slowest(case: Case, cost: Cost) -> str:
     return f"solver.{key}" if short else "loading.distance_mm"
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
     for unit, length in (("days", 86_400.0), ("h", 3_600.0), ("min", 60.0)):
         if seconds >= 2.0 * length:
             return f"{seconds / length:.0f} {unit}"

@@ -235,6 +235,20 @@ def test_runs_that_do_not_belong_to_the_sweep_and_those_that_stopped_are_left_ou
         simulated_runs(results)
 
 
+@pytest.mark.parametrize("name", ["../../other", "/etc", "", ".."])
+def test_name_of_a_case_leads_nowhere_else(name, results):
+    (results / "summary.csv").write_text(f"case,status\n{name},ok\n")
+    with pytest.raises(CaseError, match=r"summary\.csv: case: found"):
+        simulated_runs(results)
+
+
+def test_text_that_a_spreadsheet_would_run_is_quoted_in_the_tables(results, tmp_path):
+    path = tmp_path / "measured.csv"
+    path.write_text("run,mean_pressure_N_per_mm2,v_mm_per_s,T_max_C\n=A1+1,0.25,300,30\n")
+    write_comparison(path, results, tmp_path / "out")
+    assert "'=A1+1" in (tmp_path / "out" / "comparison.csv").read_text()
+
+
 def test_simulated_profile_compared_with_itself_has_no_error(results, tmp_path):
     result = write_run(tmp_path / "one")
     path = profiles_of(result, tmp_path / "same.csv")
