@@ -16,6 +16,7 @@ from fem.results import Result
 from tests.made_up_result import made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
+from validation.measured.compare_command import write_comparison
 from validation.measured.comparison import compare, simulated_runs, statistics
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
 from validation.measured.matching import matched, matching
