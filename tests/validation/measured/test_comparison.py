@@ -245,7 +245,7 @@ def test_name_of_a_case_leads_nowhere_else(name, results):
 
 def test_text_that_a_spreadsheet_would_run_is_quoted_in_the_tables(results, tmp_path):
     path = tmp_path / "measured.csv"
-    path.write_text("run,mean_pressure_N_per_mm2,v_mm_per_s,T_max_C\n=A1+1,0.25,300,30\n")
+    path.write_text("run,p_N_per_mm2,v_mm_per_s,T_max_C\n=A1+1,0.3,50,30\n")
     write_comparison(path, results, tmp_path / "out")
     assert "'=A1+1" in (tmp_path / "out" / "comparison.csv").read_text()
 
