@@ -15,14 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize, stats
 
+from calibration.errors import DataError
 from calibration.fit_problem import Loss, Problem
 from calibration.minimise import minimise
 from calibration.parameter_file import write_parameter_file
 from calibration.uncertainty import correlation_of, uncertainty
 
-__all__ = ["FitResult", "Loss", "Problem", "correlation_of", "fit"]
+__all__ = ["FitResult", "Loss", "Problem", "correlation_of", "fit", "refuse_no_fit"]
 
 Array = NDArray[np.float64]
+
+LEAST_R2 = 0.1  # a curve that explains less of the data's scatter is none,
+CONSTANT = 0.1  # where that scatter is more than this share of the data
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,6 +168,25 @@ class FitResult:
         if self.problem is None:
             raise ValueError("this result does not hold its problem; expected one from a fit")
         return self.problem
+
+
+def refuse_no_fit(result: FitResult, file: str, column: str) -> None:
+    """Refuse a curve that says no more than the mean of its data, unless the data are constant.
+
+    Raises
+    ------
+    DataError
+        Where R2 is near zero and the misfit is more than measuring errors make.
+    """
+    size = float(np.sqrt(np.mean(result.observed**2)))
+    if result.r2 < LEAST_R2 and result.rmse > CONSTANT * size:
+        raise DataError(
+            file=file,
+            column=column,
+            found=f"values that the best fit does not follow (R2 = {result.r2:.2g}, "
+            f"RMSE {result.rmse:.3g})",
+            expected="another model, or data without outliers and mixed-up columns",
+        )
 
 
 def fit(

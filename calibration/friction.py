@@ -21,7 +21,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.errors import DataError
-from calibration.fit_core import FitResult, Loss, Problem, fit
+from calibration.fit_core import FitResult, Loss, Problem, fit, refuse_no_fit
 from calibration.provenance import version
 from calibration.tables import ABSOLUTE_ZERO_C, Table, read_table
 from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction, shifted
@@ -331,6 +331,7 @@ def _completed(
     wlf: WLF | None,
     T_ref_C: float,
 ) -> FitResult:
+    refuse_no_fit(result, data.table.file, "mu")
     own = {name: result.values[name] for name in form.names}
     speed = _shifted_speed(data, wlf, T_ref_C)
     floors = _floors(data, speed)

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from calibration.cycles import Branch
 from calibration.errors import DataError
-from calibration.fit_core import FitResult, Loss, Problem, fit
+from calibration.fit_core import FitResult, Loss, Problem, fit, refuse_no_fit
 from calibration.provenance import version
 from calibration.stability import Stability, check_stability
-from calibration.stress_checks import check_modulus
+from calibration.stress_checks import STRESS, check_modulus
 from calibration.stress_data import Cycle, StressData, select_data
 from calibration.stress_models import STRESS_MODELS, Kinematics, StressModel
 from calibration.stress_zero import Zero
@@ -224,6 +224,7 @@ def _completed(
     result: FitResult, model: str, law: StressModel, data: StressData, weights: Weighting
 ) -> FitResult:
     values = result.values
+    refuse_no_fit(result, data.table.file, STRESS)
     try:
         energy = law.build(values)
     except ValueError as error:

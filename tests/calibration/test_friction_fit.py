@@ -1,9 +1,13 @@
 """Friction fits: recovery, redundancy of scale, temperature shift, comparison of curves."""
 
+import tomllib
+
 import numpy as np
+import pandas as pd
 import pytest
 
-from calibration import compare_laws, fit_friction
+import treadfem
+from calibration import DataError, compare_laws, fit_friction
 from calibration.friction import LAWS
 from calibration.paper_tables import FRICTION_LAWS, friction_values
 from calibration.synthetic import synthetic_friction
@@ -118,3 +122,68 @@ def test_floors_of_the_law_follow_the_data_downwards_only():
     assert fit_friction(low).section["friction"]["v_min_mm_per_s"] == pytest.approx(0.05)
     high = synthetic_friction(HuemerFriction(), velocities_mm_per_s=np.geomspace(5.0, 900.0, 20))
     assert fit_friction(high).section["friction"]["v_min_mm_per_s"] == 1.0
+
+
+def exponential_table(A=0.9, B=-0.1, C=-0.02, **columns):
+    p, v = (values.ravel() for values in np.meshgrid([0.1, 0.2, 0.4], [1.0, 3.0, 10.0, 30.0]))
+    return pd.DataFrame(
+        {"p_N_per_mm2": p, "v_mm_per_s": v, "mu": (A * p**B * v**C).round(5), **columns}
+    )
+
+
+def test_the_ranges_of_the_data_go_into_the_section():
+    section = fit_friction(exponential_table(T_C=31.0), "exponential").section["friction"]
+    assert section["window"] == {
+        "p_N_per_mm2": [0.1, 0.4],
+        "v_mm_per_s": [1.0, 30.0],
+        "T_C": [31.0, 31.0],
+    }
+    assert section["T_ref_C"] == 31.0  # the temperature of the law, without any shift
+
+
+def test_a_shift_given_at_another_temperature_is_rebased_to_that_of_the_law(tmp_path):
+    table = tmp_path / "slides.csv"
+    exponential_table(T_C=[0.0, 20.0, 40.0] * 4).to_csv(table, index=False)
+    given, there = WLF(d1=25.0, d2_K=141.0), WLF(d1=25.0, d2_K=141.0).rebased(-5.0, 30.0)
+    expected = fit_friction(table, "exponential", wlf=there, T_ref_C=30.0)
+    words = f"--law exponential --wlf given --d1 {given.d1} --d2 {given.d2_K} --wlf-T-ref -5"
+    folder = ["-o", str(tmp_path / "o"), "--no-compare", "--quiet"]
+    words = ["calibrate", "friction", str(table), *words.split(), "--T-ref", "30", *folder]
+    assert treadfem.main(words) == 0
+    section = tomllib.loads((tmp_path / "o" / "parameters.toml").read_text())["friction"]
+    assert section["d2_K"] == pytest.approx(there.d2_K)
+    assert section["T_ref_C"] == 30.0
+    assert section["C"] == pytest.approx(expected.values["C"], rel=1e-9)
+
+
+def test_a_law_that_is_negative_beyond_its_data_is_named():
+    p, v = (values.ravel() for values in np.meshgrid([0.02, 0.1, 0.2, 0.3], [5.0, 20.0, 80.0]))
+    law = HuemerFriction(alpha=0.9, beta=-0.9, n=0.9)  # the numerator ends at p = 1
+    table = pd.DataFrame({"p_N_per_mm2": p, "v_mm_per_s": v, "mu": law.coefficient(p, v)})
+    result = fit_friction(table, "huemer")
+    (warning,) = [text for text in result.warnings if "below zero" in text]
+    edge = float(warning.split(" N/mm^2")[0].split()[-1])
+    assert 0.9 < edge < 1.1
+    assert result.model.law.coefficient(1.2 * edge, 20.0) < 0.0 < law.coefficient(0.9 * edge, 20.0)
+    assert not any(
+        "below zero" in t for t in fit_friction(exponential_table(), "exponential").warnings
+    )
+
+
+def test_laws_that_data_cannot_carry_are_compared_by_their_reason():
+    few = exponential_table().iloc[:5]
+    found = compare_laws(few)
+    assert list(found["law"]) == ["exponential", "huemer"]
+    assert found["reason"].iloc[0] == ""
+    assert "free parameters of huemer" in found["reason"].iloc[1]
+    assert np.isnan(found["rmse"].iloc[1])
+
+
+def test_friction_that_follows_no_law_gives_no_parameters():
+    mixed = pd.concat([exponential_table()] * 10, ignore_index=True)
+    mixed["mu"] = np.random.default_rng(5).permutation(np.linspace(0.1, 1.5, len(mixed)))
+    with pytest.raises(DataError, match="column mu: found values that the best fit does not"):
+        fit_friction(mixed, "exponential")
+    constant = exponential_table(B=0.0, C=0.0)
+    constant["mu"] += np.random.default_rng(5).normal(0.0, 0.005, len(constant))
+    assert fit_friction(constant, "exponential").rmse < 0.01  # no trend, and none needed

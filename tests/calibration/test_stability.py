@@ -8,7 +8,7 @@ from calibration.stability import (
     drucker_margin,
     ellipticity_margin,
 )
-from materials import MODES, NeoHooke, Ogden, VanDerWaals, Yeoh, compound
+from materials import MODES, MooneyRivlin, NeoHooke, Ogden, VanDerWaals, Yeoh, compound
 from tests.materials.models import MODELS, constants, kind
 from tests.reference_solutions import homogeneous
 
@@ -81,6 +81,27 @@ def test_the_loading_set_with_negative_c30_is_stable_over_its_bars_but_not_for_e
 def test_a_locking_stretch_is_no_loss_of_stability():
     found = check_stability(VanDerWaals(G=0.75, lambda_m=3.5, a=1.0), {"uniaxial": (1.0, 2.5)})
     assert found.drucker["uniaxial"][1] == np.inf
+
+
+def test_instability_outside_the_tests_is_named_for_every_mode():
+    model = MooneyRivlin(C10=0.5, C01=-0.15)
+    found = check_stability(model, {"uniaxial": (1.0, 1.8)})
+    assert found.stable
+    assert found.warnings == ()
+    ends = {mode: found.drucker[mode] for mode in MODES}
+    for mode, (low, high) in ends.items():
+        assert (
+            f"outside the tests, {mode}: the energy is not stable (Drucker) below the stretch "
+            in (found.text)
+        )
+        assert (
+            f"{mode}: the energy is not stable (Drucker) above the stretch {high:.4g}" in found.text
+        )
+        margins = drucker_margin(model, np.array([0.999 * low, 1.001 * low]), mode)
+        assert margins[0] < 0.0 < margins[1]
+    assert ends["equibiaxial"] == pytest.approx((0.740, 1.404), abs=1e-3)
+    assert ends["planar"][1] == pytest.approx(1.73, abs=1e-3)
+    assert "stable over the data and from 0.3 to 3" in check_stability(NeoHooke(G=1.0), {}).text
 
 
 def test_warnings_count_only_inside_the_data():
