@@ -23,6 +23,9 @@ _KINDS = {
     "less_than": "a number less than {lt:.6g}",
     "less_than_equal": "a number of at most {le:.6g}",
     "model_type": "a table of keys",
+    "list_type": "an array of numbers",
+    "too_short": "an array of at least {min_length} numbers",
+    "too_long": "an array of at most {max_length} numbers",
     "dict_type": "a table of keys",
 }
 

@@ -99,6 +99,24 @@ def test_model_with_constants(table, model):
     assert case_with(rubber=table).rubber.model() == model
 
 
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"alpha": [1.3]}, "found mu has 2 and alpha 1 entries, expected as many of each"),
+        ({"alpha": [1.3, 0.0]}, "found alpha2 is 0, expected another number"),
+        ({"alpha": 1.3}, "rubber.alpha: found 1.3, expected an array of numbers"),
+        ({"alpha": None}, "rubber.alpha: found nothing, expected a number"),
+        ({"mu_N_per_mm2": [0.5, "x"]}, "rubber.mu_N_per_mm2.1: found the text"),
+        ({"mu_N_per_mm2": [0.5, -0.6]}, "found the sum of mu is -0.1, expected a number above"),
+        ({"G_N_per_mm2": 1.0}, "G_N_per_mm2: found 1.0, expected only constants of model"),
+    ],
+)
+def test_constants_of_ogden_that_make_no_energy_are_refused(change, message):
+    table = {"model": "ogden", "mu_N_per_mm2": [0.5, 0.02], "alpha": [1.3, -3.0], **change}
+    with pytest.raises(CaseError, match=message):
+        case_with(rubber=table)
+
+
 def test_bulk_modulus_is_the_ratio_times_the_shear_modulus():
     rubber = case_with(rubber={**YEOH, "bulk_ratio": 20}).rubber
     assert rubber.bulk_modulus == pytest.approx(20.0 * 2.0 * 0.3, rel=1e-14)

@@ -123,7 +123,9 @@ def test_windows_stay_with_their_law():
     ("window", "message"),
     [
         ({"v_mm_per_s": [5.0, 1.0]}, "friction.window.v_mm_per_s: found an array of 2 values"),
-        ({"v_mm_per_s": [5.0]}, "friction.window.v_mm_per_s: "),
+        ({"v_mm_per_s": [5.0]}, "found an array of 1 values, expected an array of at least 2"),
+        ({"v_mm_per_s": [5.0] * 3}, "found an array of 3 values, expected an array of at most 2"),
+        ({"v_mm_per_s": 5.0}, "v_mm_per_s: found 5.0, expected an array of numbers"),
         ({"v": [1.0, 5.0]}, "friction.window.v: found an unknown key, expected one of p_N"),
     ],
 )
