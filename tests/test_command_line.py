@@ -169,6 +169,21 @@ def test_no_convergence_gives_code_3_and_keeps_what_was_accepted(case_file, caps
     assert Path("out/summary.json").exists()
 
 
+@pytest.mark.parametrize("words, code", [([], 0), (["--strict"], 4), (["--quiet"], 0)])
+def test_warnings_of_a_run_are_printed_and_end_a_strict_one_with_code_4(
+    words, code, case_file, capsys, stub
+):
+    stub(StubSimulation(warnings=["energy_error = 0.05 is above 0.01"]))
+    assert command("run", case_file, "-o", "out", *words) == code
+    assert capsys.readouterr().err == "treadfem: warning: energy_error = 0.05 is above 0.01\n"
+    assert Path("out/summary.json").exists()
+
+
+def test_strict_run_without_a_warning_ends_with_code_0(case_file, stub):
+    stub(StubSimulation())
+    assert command("run", case_file, "-o", "out", "--strict") == 0
+
+
 def test_interrupted_simulation_gives_code_130_and_keeps_what_was_accepted(case_file, stub):
     stub(StubSimulation("interrupted"))
     assert command("run", case_file, "-o", "out", "--quiet") == 130
