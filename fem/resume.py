@@ -15,9 +15,19 @@ from fem.checkpoint import (
     first_difference,
     remove_checkpoint,
 )
+from fem.columns import HISTORY, SURFACE
 from fem.outcome import OK
 from fem.program_version import program_version
-from fem.results import CASE_FILE, SUMMARY_JSON, Result, missing_files, read_summary
+from fem.results import (
+    CASE_FILE,
+    HISTORY_FILE,
+    SUMMARY_JSON,
+    SURFACE_FILE,
+    Result,
+    missing_files,
+    read_summary,
+    read_table,
+)
 
 
 def resumable(directory: str | Path, case: Case) -> Literal["checkpoint", "finished", "nothing"]:
@@ -51,8 +61,10 @@ def gone_on_with(
 
 
 def _finished(directory: Path, case: Case) -> bool:
-    """Whether a run ended here as it should and all of its files are there."""
+    """Whether a run ended here as it should and all of its files are there, tables readable."""
     try:
+        for name, columns in ((HISTORY_FILE, HISTORY), (SURFACE_FILE, SURFACE)):
+            read_table(directory / name, columns)
         return read_summary(directory)["status"] == OK and not missing_files(directory, case)
     except ValueError:
         return False

@@ -156,3 +156,19 @@ def test_reading_a_folder_that_is_no_result_says_which_file_is_missing(result, t
     (tmp_path / "surface.csv").write_text("")
     with pytest.raises(ValueError, match=r"surface\.csv is not a table"):
         Result.read(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "damage",
+    ["5", "null", "[]", '"ok"', "{}", "{", "[" * 100_000, '{"status": 3}', '{"T_max_C": "hot"}'],
+    ids=range(9),
+)
+def test_a_damaged_summary_is_named_in_one_line(damage, result, tmp_path):
+    result.write(tmp_path)
+    path = tmp_path / "summary.json"
+    whole = json.loads(path.read_text())
+    partial = damage.startswith('{"')
+    path.write_text(json.dumps(whole | json.loads(damage)) if partial else damage)
+    with pytest.raises(ValueError, match=r"summary\.json") as error:
+        read_summary(tmp_path)
+    assert "\n" not in str(error.value)

@@ -300,6 +300,14 @@ def test_a_result_without_one_of_its_files_is_not_finished(name, tmp_path):
     assert resumable(tmp_path, case) == "nothing"
 
 
+@pytest.mark.parametrize("content", [b"", b"a,b\n1,2\n", b"\xff\xfe", b'"'])
+def test_a_result_with_a_damaged_table_is_not_finished(content, tmp_path):
+    case = CASES["rigid"]
+    simulate(case).write(tmp_path)
+    (tmp_path / "history.csv").write_bytes(content)
+    assert resumable(tmp_path, case) == "nothing"
+
+
 @pytest.mark.parametrize("edit", ["nan", "text", "shorter", "number"])
 def test_a_checkpoint_that_was_edited_is_refused(edit, run, tmp_path):
     case, _, files = run

@@ -7,7 +7,7 @@ from pathlib import Path
 from fem.case import Case
 from fem.results import Result
 from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import holds, simulate_missing
+from validation.sweeps.study_runs import holds, read_run, simulate_missing
 
 
 def introductory_case() -> Case:
@@ -26,6 +26,6 @@ def introductory_run(directory: str | Path) -> Result:
     case = introductory_case()
     beside = directory.parent / "run"
     if holds(beside, case):
-        return Result.read(beside)
+        return read_run(beside)
     simulate_missing([(own, case)])
-    return Result.read(own)
+    return read_run(own)

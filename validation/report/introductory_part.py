@@ -91,4 +91,7 @@ def _summary_of(folder: Path, case: Case) -> dict[str, Any] | None:
 def _result(summary: dict[str, Any], key: str) -> tuple[str, str, str]:
     name, unit, form = SHOWN[key]
     value = summary.get(key)
-    return name, "-" if value is None else format(value, form), unit
+    try:
+        return name, "-" if value is None else format(value, form), unit
+    except ValueError:  # a number of another kind, in a file that was edited
+        return name, str(value), unit

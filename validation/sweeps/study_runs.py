@@ -61,7 +61,26 @@ def study_runs(study: str | Path, directory: str | Path) -> list[StudyRun]:
     cases = read_study(study)
     runs = Path(directory).absolute() / "runs"
     simulate_missing([(runs / study_case.name, study_case.case) for study_case in cases])
-    return [StudyRun(study_case=c, result=Result.read(runs / c.name)) for c in cases]
+    return [StudyRun(study_case=c, result=read_run(runs / c.name)) for c in cases]
+
+
+def read_run(folder: Path) -> Result:
+    """Result of a run that is finished.
+
+    Raises
+    ------
+    CaseError
+        If one of its files is damaged, in one line.
+    """
+    try:
+        return Result.read(folder)
+    except CaseError:
+        raise
+    except ValueError as error:
+        expected = "what the run wrote (without summary.json it is run again)"
+        raise CaseError(
+            file=str(folder), key="result", found=str(error), expected=expected
+        ) from None
 
 
 def simulate_missing(wanted: Sequence[tuple[Path, Case]]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from fem.case_errors import CaseError
 from validation.report.cells import is_number, read_cells, short
 
 
@@ -58,3 +59,12 @@ def test_columns_can_be_left_out_and_asked_for(tmp_path):
 @pytest.mark.parametrize(("cell", "number"), [("-1.5e3", True), ("−0.2", True), ("4.2 K", False)])
 def test_what_is_set_flush_right(cell, number):
     assert is_number(cell) is number
+
+
+@pytest.mark.parametrize("content", [b"a,b\n\xff\xfe,1\n", b"a\n" + b"x" * 140_000])
+def test_a_file_that_is_no_table_is_refused_in_one_line(content, tmp_path):
+    path = tmp_path / "claims.csv"
+    path.write_bytes(content)
+    with pytest.raises(CaseError, match=r"claims\.csv: content: found no table") as error:
+        read_cells(path)
+    assert "\n" not in str(error.value)
