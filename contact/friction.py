@@ -6,6 +6,10 @@ References
    applications", eqs. (5)-(8), Table 2.
 .. [2] Huemer, T. et al., Rubber friction on concrete and ice surfaces observed under different
    temperatures and surface conditions (2001).
+.. [3] Dieterich, J. H., J. Geophys. Res. 84 (1979) 2161-2168: friction after a change of the speed.
+.. [4] Ruina, A., J. Geophys. Res. 88 (1983) 10359-10370: state of the contact, its stability.
+.. [5] Persson, B. N. J., J. Phys.: Condens. Matter 18 (2006) 7789-7823: rubber, contact regions of
+   0.1 to 1 mm on asphalt.
 """
 
 from abc import ABC, abstractmethod
@@ -209,6 +213,8 @@ class ThermalFriction:
         Shift of the velocity; None leaves the law independent of temperature.
     T_ref_C : float
         Temperature at which the law was measured [deg C].
+    memory_mm : float
+        Slip over which the coefficient follows a change of the speed [mm]; 0: at once.
 
     Notes
     -----
@@ -219,9 +225,30 @@ class ThermalFriction:
     law: FrictionLaw
     wlf: WLF | None = None
     T_ref_C: float = 20.0
+    memory_mm: float = 0.0
 
     def __post_init__(self) -> None:
         require_finite(T_ref_C=self.T_ref_C)
+        require_not_negative(memory_mm=self.memory_mm)
+
+    def remembered(self, v_before: ArrayLike, v: ArrayLike, slip: ArrayLike) -> Array:
+        """Speed that the coefficient knows of after a slip at the speed v [mm/s].
+
+        A law mu(v) is measured at constant speed. After a change of the speed the coefficient
+        follows while the contact spots are renewed, over a slip D of their size [3]_, [4]_, [5]_:
+        ``dv_m/ds = (v - v_m)/D``, solved exactly for the speed of the step.
+
+        Parameters
+        ----------
+        v_before, v : array_like
+            Remembered speed before the slip, and the speed of the slip [mm/s].
+        slip : array_like
+            Slip, whose sign does not matter [mm].
+        """
+        v_before, v = np.asarray(v_before, dtype=float), np.asarray(v, dtype=float)
+        if self.memory_mm == 0.0:
+            return v
+        return v + (v_before - v) * np.exp(-np.abs(slip) / self.memory_mm)
 
     def coefficient(self, p: ArrayLike, v: ArrayLike, T_C: ArrayLike) -> Array:
         """Friction coefficient [-] at p [N/mm^2], v [mm/s] and T_C [deg C] (broadcast)."""

@@ -28,6 +28,8 @@ class EnergyAudit:
         Work of the platen, friction (on the road and on itself), Kelvin-Voigt dissipation.
     strain_energy, kinetic : float
         Stored now.
+    snaps : float
+        Part of the viscous dissipation in steps that had no solution with less damping.
     created : float
         Energy that friction or viscosity gave in steps in which they should have taken it.
     capped, dissipated : float
@@ -37,6 +39,7 @@ class EnergyAudit:
     work_in: float = 0.0
     friction: float = 0.0
     viscous: float = 0.0
+    snaps: float = 0.0
     strain_energy: float = 0.0
     kinetic: float = 0.0
     created: float = 0.0
@@ -57,8 +60,13 @@ class EnergyAudit:
 
     @property
     def regularisation_share(self) -> float:
-        """Kelvin-Voigt dissipation relative to the work in [-]."""
-        return share(self.viscous, self.work_in)
+        """Damping outside of snaps, relative to the work in [-]."""
+        return share(self.viscous - self.snaps, self.work_in)
+
+    @property
+    def snap_share(self) -> float:
+        """What snaps released, relative to the work in [-]."""
+        return share(self.snaps, self.work_in)
 
     @property
     def capped_share(self) -> float:
@@ -66,8 +74,10 @@ class EnergyAudit:
         return share(self.capped, self.dissipated)
 
 
-def audited(audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics) -> EnergyAudit:
-    """Audit after one more accepted step."""
+def audited(
+    audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics, *, snaps: bool = False
+) -> EnergyAudit:
+    """Audit after one more accepted step; one that `snaps` had no solution with less damping."""
     before, after = step.before, step.after
     assert step.evaluation.elements is not None
     force_x = float(step.evaluation.nodal[mechanics.mesh.top, 0].sum())
@@ -84,6 +94,7 @@ def audited(audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics) -
         work_in=audit.work_in + work,
         friction=audit.friction + friction,
         viscous=audit.viscous + viscous,
+        snaps=audit.snaps + viscous * snaps,
         strain_energy=mechanics.elements.strain_energy(step.evaluation.elements.kinematics),
         kinetic=kinetic,
         created=audit.created + max(-friction, 0.0) + max(-viscous, 0.0),

@@ -36,6 +36,7 @@ _D1 = Annotated[Positive, Within(WLF_D1)]
 _D2 = Annotated[Positive, Within(WLF_D2)]
 _Reference = Annotated[Celsius, Within(TEMPERATURE)]
 _PressureFloor = Annotated[Positive, Field(ge=1e-9, le=10.0)]
+_Memory = Annotated[NotNegative, Field(le=100.0)]
 _SpeedFloor = Annotated[Positive, Field(ge=1e-9, le=1e5)]
 
 LAW_CLASSES: dict[str, type[FrictionLaw]] = {
@@ -90,6 +91,10 @@ class Friction(Section):
     p_min_N_per_mm2: _PressureFloor = Field(1e-3, description="pressure floor of the law [N/mm^2]")
     v_min_mm_per_s: _SpeedFloor = Field(1.0, description="velocity floor of the law [mm/s]")
 
+    memory_mm: _Memory = Field(
+        0.3,
+        description="slip over which the coefficient follows a change of speed [mm]; 0: at once",
+    )
     window: ContactWindow | None = Field(
         None, description="ranges the law was fitted to; a run says what leaves them"
     )
@@ -135,7 +140,9 @@ class Friction(Section):
     def law_object(self) -> ThermalFriction:
         """Build the law mu(p, v, T) with its WLF shift."""
         shift = self.shift() if self.wlf else None
-        return ThermalFriction(law=self.plain_law(), wlf=shift, T_ref_C=self.T_ref_C)
+        return ThermalFriction(
+            law=self.plain_law(), wlf=shift, T_ref_C=self.T_ref_C, memory_mm=self.memory_mm
+        )
 
     def shift(self) -> WLF:
         """Build the WLF shift for the temperature of the law, whatever its constants refer to."""

@@ -155,11 +155,11 @@ class Solver(Section):
     )
     inertia: bool = Field(True, description="backward-Euler inertia of the rubber")
     viscous_distance_mm: _ViscousDistance = Field(
-        5.0,
-        description="Kelvin-Voigt regularisation: relaxation time times velocity [mm]; 0: none",
+        0.05,
+        description="damping of steps without a solution: relaxation time times velocity [mm]",
     )
     edge_viscous_distance_mm: _ViscousDistance = Field(
-        100.0, description="the same, added at the leading corner [mm]"
+        5.0, description="the same, added at the leading corner [mm]"
     )
     edge_radius_mm: Positive = Field(
         2.0, description="distance from the leading corner over which that fades [mm]"

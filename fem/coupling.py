@@ -30,6 +30,7 @@ from fem.case_sections import MOST_PASSES
 from fem.heat import HeatLoad, HeatModel, HeatState
 from fem.mechanics import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
 from fem.programme import Target
+from fem.regularisation import SnapDamping
 from fem.state import MechanicalState
 
 FloatArray = NDArray[np.float64]
@@ -59,6 +60,8 @@ class RoadContact:
         Normal force per contact length, 0 where open [N/mm^2].
     slip_velocity : float array
         Velocity over the road, signed [mm/s].
+    remembered_velocity : float array
+        Speed that the friction coefficient knows of, which follows the slip velocity [mm/s].
     mu : float array
         Friction coefficient the step was solved with [-].
     """
@@ -69,12 +72,19 @@ class RoadContact:
     shear: FloatArray
     pressure: FloatArray
     slip_velocity: FloatArray
+    remembered_velocity: FloatArray
     mu: FloatArray
 
     @property
     def contact_length(self) -> float:
         """Total contact length [mm]."""
         return float(self.length[self.status.active].sum())
+
+    @property
+    def mean_slip_velocity(self) -> float:
+        """Slip velocity, signed, weighted by the normal force [mm/s]; 0 without contact."""
+        total = self.normal_force
+        return float(np.sum(self.normal * self.slip_velocity) / total) if total > 0.0 else 0.0
 
     @property
     def normal_force(self) -> float:
@@ -199,6 +209,8 @@ class CoupledModel:
         Heat of block and road.
     laws : ContactLaws
         Laws of the interface.
+    damping : SnapDamping, optional
+        Damping of steps that need help; none without it.
     mean_pressure : float
         Pressure assumed for nodes that are about to touch the road, and as the mean pressure of
         the contact in the first step [N/mm^2].
@@ -218,13 +230,14 @@ class CoupledModel:
         heat: HeatModel,
         laws: ContactLaws,
         *,
+        damping: SnapDamping | None = None,
         mean_pressure: float,
         friction_passes: int,
         options: newton.NewtonOptions,
         first_merit: float = 1.0,
         self_contact: SelfContact | None = None,
     ) -> None:
-        self.self_contact = self_contact
+        self.self_contact, self.damping = self_contact, damping
         self.mechanics, self.heat, self.laws = mechanics, heat, laws
         self.mean_pressure, self.friction_passes = mean_pressure, friction_passes
         self.options = options
@@ -236,7 +249,7 @@ class CoupledModel:
         zeros = np.zeros(self.mechanics.candidates.size)
         contact = RoadContact(
             status=mechanics.status, length=zeros, normal=zeros, shear=zeros, pressure=zeros,
-            slip_velocity=zeros, mu=zeros,
+            slip_velocity=zeros, remembered_velocity=zeros, mu=zeros,
         )  # fmt: skip
         contact = replace(
             contact, pressure=np.where(mechanics.status.active, self.mean_pressure, 0)
@@ -246,14 +259,24 @@ class CoupledModel:
             mu=self._coefficient(contact, heat),
         )  # fmt: skip
 
-    def advance(self, state: CoupledState, target: Target) -> AcceptedStep | RejectedStep:
-        """Solve one step from an accepted state; the state is not changed.
+    def advance(
+        self, state: CoupledState, target: Target, help_level: float = 0.0
+    ) -> AcceptedStep | RejectedStep:
+        """Solve one step from an accepted state, with damping of a level; the state stays.
 
         Passes over the friction coefficient and over the pairs of self-contact, each from the
         solution of the last.
         """
         mu, pairs = state.mu, self._pairs(state, state.mechanics.u)
-        load = StepLoad(dt=target.dt, sweep=target.sweep, force=target.force, mu=mu, pairs=pairs)
+        damping = None if self.damping is None else self.damping.rate(help_level, target.motion)
+        load = StepLoad(
+            dt=target.dt,
+            sweep=target.sweep,
+            force=target.force,
+            mu=mu,
+            damping=damping,
+            pairs=pairs,
+        )
         problem = self.mechanics.step(state.mechanics, load)
         start = problem.start()
         iterations = hardest = 0
@@ -268,7 +291,7 @@ class CoupledModel:
                 return RejectedStep(
                     failure=result.failure, detail=result.detail, iterations=iterations
                 )
-            contact = self._contact(problem, result.x, result.evaluation)
+            contact = self._contact(state, problem, result)
             mu_next = self._coefficient(contact, state.heat)
             lag = lag_error(contact, mu_next)
             mu_settled = lag < LAG_TOLERANCE or last
@@ -312,23 +335,34 @@ class CoupledModel:
             return pairs
         return followed(pairs, found, self.mechanics.mesh.points + u, self.mechanics.boundary)
 
-    def _contact(self, problem: StepProblem, x: Iterate, evaluation: StepEvaluation) -> RoadContact:
-        """Contact quantities of a converged iterate."""
-        forces: ContactForces = problem.contact_forces(x.u, evaluation.nodal)
+    def _contact(
+        self,
+        state: CoupledState,
+        problem: StepProblem,
+        result: newton.NewtonResult[Iterate, StepEvaluation],
+    ) -> RoadContact:
+        """Contact quantities of a converged iterate of a step from `state`."""
+        x, before = result.x, state.contact
+        forces: ContactForces = problem.contact_forces(x.u, result.evaluation.nodal)
         active = x.status.active
+        speed = np.abs(forces.slip) / problem.load.dt
+        # A node that has just touched the road knows its present speed only.
+        known = np.where(before.status.active, before.remembered_velocity, speed)
+        remembered = self.laws.friction.remembered(known, speed, forces.slip)
         length = self.mechanics.contact_lengths(x.u, active)
         normal = np.where(active, forces.normal, 0.0)
         return RoadContact(
             status=x.status, length=np.where(active, length, 0.0), normal=normal,
             shear=np.where(active, forces.tangential, 0.0),
             pressure=np.maximum(normal, 0.0) / length,
-            slip_velocity=forces.slip / problem.load.dt, mu=problem.load.mu,
+            slip_velocity=forces.slip / problem.load.dt, remembered_velocity=remembered,
+            mu=problem.load.mu,
         )  # fmt: skip
 
     def _coefficient(self, contact: RoadContact, heat: HeatState) -> FloatArray:
         """Friction coefficient at the contact's pressure, slip velocity and temperature."""
         p = np.where(contact.status.active, contact.pressure, self.mean_pressure)
-        v = np.where(contact.status.sticking, 0.0, np.abs(contact.slip_velocity))
+        v = contact.remembered_velocity
         return self.laws.friction.coefficient(p, v, heat.T[self.mechanics.candidates])
 
     def _accept(

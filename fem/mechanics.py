@@ -48,6 +48,8 @@ class StepLoad:
         Force on the platen, downwards, per depth, at the end of the step [N/mm].
     mu : (m,) float array
         Friction coefficient of the candidates [-].
+    damping : (ne, 1) float array or None
+        Stress per strain increment of the step, by element [N/mm^2]; None without damping.
     pairs : Pairs or None
         Nodes and segments of the boundary that may meet; None without self-contact.
     """
@@ -56,6 +58,7 @@ class StepLoad:
     sweep: float
     force: float
     mu: FloatArray
+    damping: FloatArray | None = None
     pairs: Pairs | None = None
 
 
@@ -127,8 +130,6 @@ class BlockMechanics:
         Element kernel on that mesh.
     density : float
         Mass density [t/mm^3]; zero for quasi-static steps.
-    viscosity : float or (ne, 1) float array
-        Kelvin-Voigt viscosity eta [N s/mm^2]; zero for none.
     top : {"platen", "pressure"}
         Rigid platen, or free uniform pressure with fixed horizontal displacement.
     tolerance : float
@@ -141,13 +142,12 @@ class BlockMechanics:
         elements: Q1P0Elements,
         *,
         density: float = 0.0,
-        viscosity: float | FloatArray = 0.0,
         top: Literal["platen", "pressure"] = "platen",
         tolerance: float = 1e-8,
         solver: LinearSolver | None = None,
     ) -> None:
         self.mesh, self.elements, self.top = mesh, elements, top
-        self.viscosity, self.tolerance = np.asarray(viscosity, dtype=float), tolerance
+        self.tolerance = tolerance
         self.solver: LinearSolver = solver or SuperLUSolver()
         n = len(mesh.points)
         self.mass = np.bincount(
@@ -240,11 +240,10 @@ class StepProblem:
 
     def __init__(self, system: BlockMechanics, state: MechanicalState, load: StepLoad) -> None:
         self.system, self.state, self.load = system, state, load
-        elements = system.elements
         self.viscosity: Viscosity | None = None
-        if np.any(system.viscosity > 0.0):
-            strain_n = elements.kinematics(state.u).green_lagrange
-            self.viscosity = Viscosity(rate=system.viscosity / load.dt, strain_n=strain_n)
+        if load.damping is not None:
+            strain_n = system.elements.kinematics(state.u).green_lagrange
+            self.viscosity = Viscosity(rate=load.damping, strain_n=strain_n)
         self.frame = np.array([load.sweep / load.dt, 0.0])
         self._latest: tuple[FloatArray, FloatArray, ElementForces] | None = None
 

@@ -90,7 +90,7 @@ class NewtonOptions:
     halvings_max: int = 8
     growth_max: float = 20.0
     cycles_max: int = 2
-    patience: int = 6
+    patience: int = 4
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,24 +6,38 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import brentq
 
 from fem.case import Case
-from fem.regularisation import relaxation_time
 
-#: Duration of the pressing phase [s] without viscosity, and with it in relaxation times.
+#: Duration of the pressing phase [s].
 PRESSING_TIME = 0.05
-PRESSING_RELAXATIONS = 3.0
-#: Distance of constant acceleration at the start of sliding [mm].
+#: Distance that pressing counts as, where damping is stated by a distance [mm].
+PRESSING_MOTION = 1.0
+#: Distance of acceleration at the start of sliding [mm].
 ACCELERATION_DISTANCE = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
 class Target:
-    """End of a step: its length [s], platen motion [mm, signed] and platen force [N/mm]."""
+    """End of a step.
+
+    Attributes
+    ----------
+    dt : float
+        Its length [s].
+    sweep : float
+        Motion of the platen over the road, signed [mm].
+    force : float
+        Force on the platen per depth [N/mm].
+    motion : float
+        Distance that the step goes on, for damping stated by a distance [mm].
+    """
 
     dt: float
     sweep: float
     force: float
+    motion: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +68,10 @@ class Phase:
 
 
 def sliding_time(distance: float, speed: float) -> float:
-    """Time since the start of sliding [s], constant acceleration up to `speed` [mm/s] at first.
+    """Time since the start of sliding [s], smoothly accelerated up to `speed` [mm/s] at first.
+
+    The speed rises as ``3 tau^2 - 2 tau^3``, without a jump of the acceleration: a block of rubber
+    would answer one with a jump of the platen's force.
 
     Parameters
     ----------
@@ -62,11 +79,18 @@ def sliding_time(distance: float, speed: float) -> float:
         Distance slid [mm].
     speed : float
         Final speed [mm/s].
+
+    Examples
+    --------
+    >>> sliding_time(2.5, 300.0)
+    0.01
     """
     ramp = ACCELERATION_DISTANCE
-    if distance < ramp:
-        return float(2.0 * np.sqrt(ramp * distance) / speed)
-    return (distance + ramp) / speed
+    if distance >= ramp:
+        return (distance + ramp) / speed
+    # The distance is the integral of the speed, s/ramp = 2 tau^3 - tau^4.
+    tau = brentq(lambda tau: tau**3 * (2.0 - tau) - distance / ramp, 0.0, 1.0, xtol=1e-14)
+    return float(tau * 2.0 * ramp / speed)
 
 
 def programme(case: Case) -> tuple[Phase, Phase]:
@@ -75,14 +99,20 @@ def programme(case: Case) -> tuple[Phase, Phase]:
     force = loading.mean_pressure_N_per_mm2 * case.block.length_mm
     speed, sense = abs(loading.velocity_mm_per_s), float(np.sign(loading.velocity_mm_per_s))
     scale = solver.steps_scale
-    pressing_time = max(PRESSING_TIME, PRESSING_RELAXATIONS * relaxation_time(case))
 
     def pressing(start: float, stop: float) -> Target:
-        return Target(dt=pressing_time * (stop - start), sweep=0.0, force=force * stop)
+        share = stop - start
+        return Target(
+            dt=PRESSING_TIME * share,
+            sweep=0.0,
+            force=force * stop,
+            motion=PRESSING_MOTION * share,
+        )
 
     def sliding(start: float, stop: float) -> Target:
         dt = sliding_time(stop, speed) - sliding_time(start, speed)
-        return Target(dt=dt, sweep=sense * (stop - start), force=force)
+        motion = stop - start
+        return Target(dt=dt, sweep=sense * motion, force=force, motion=motion)
 
     return (
         Phase(

@@ -99,6 +99,7 @@ class Recorder:
             "contact_length_mm": length,
             "mean_contact_pressure_N_per_mm2": normal / length if length > 0.0 else 0.0,
             "max_contact_pressure_N_per_mm2": float(contact.pressure.max()),
+            "mean_slip_velocity_mm_per_s": direction * contact.mean_slip_velocity,
             "platen_displacement_mm": platen_displacement(self.mesh, step.after.mechanics.u),
         }
 
@@ -181,6 +182,7 @@ def energy_columns(audit: EnergyAudit, state: CoupledState) -> dict[str, float]:
         "strain_energy_mJ_per_mm": audit.strain_energy,
         "friction_dissipation_mJ_per_mm": audit.friction,
         "viscous_dissipation_mJ_per_mm": audit.viscous,
+        "snap_dissipation_mJ_per_mm": audit.snaps,
         "kinetic_energy_mJ_per_mm": audit.kinetic,
         "frictional_heat_mJ_per_mm": heat.generated,
         "heat_in_rubber_mJ_per_mm": heat.in_block,

@@ -36,6 +36,7 @@ from fem.run_summary import (
     layer_errors,
     sliding_means,
 )
+from fem.sliding_regime import STEADY
 from fem.snapshot import BlockGeometry, Snapshot
 from fem.trust import judged
 
@@ -141,6 +142,7 @@ class _RigidRun:
             "contact_length_mm": float(step.tributary_mm.sum()),
             "mean_contact_pressure_N_per_mm2": self.sliding.pressure,
             "max_contact_pressure_N_per_mm2": float(step.pressure.max()),
+            "mean_slip_velocity_mm_per_s": abs(self.sliding.velocity),
             "platen_displacement_mm": 0.0,
         }
         row |= temperature_columns(self.mesh, self.heat.T, self.case.heat.ambient_C)
@@ -164,6 +166,7 @@ class _RigidRun:
             "strain_energy_mJ_per_mm": 0.0,
             "friction_dissipation_mJ_per_mm": self.work,
             "viscous_dissipation_mJ_per_mm": 0.0,
+            "snap_dissipation_mJ_per_mm": 0.0,
             "kinetic_energy_mJ_per_mm": 0.0,
             "frictional_heat_mJ_per_mm": heat.generated,
             "heat_in_rubber_mJ_per_mm": heat.in_block,
@@ -233,6 +236,7 @@ class _RigidRun:
             "energy_error": balance_error(self.work, self.work, created=self.created),
             "heat_error": heat_error(self.heat),
             "regularisation_share": 0.0,
+            "snap_share": 0.0,
             "capped_heat_share": share(self.capped, self.work),
             "rejected_steps": 0,
             "friction_lag_error": largest(history, "friction_lag_error"),
@@ -240,6 +244,7 @@ class _RigidRun:
             **layer_errors(history, self.model),
             "min_J": 1.0,
             "program_version": program_version(),
+            "sliding_regime": STEADY,
             "warnings": [*self.case.warnings, *window_warnings(self.case, self.rows)],
         }
         return judged(summary)

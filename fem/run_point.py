@@ -15,6 +15,7 @@ from fem.case import Case
 from fem.coupling import CoupledState
 from fem.heat import HeatState
 from fem.snapshot import Snapshot
+from fem.step_control import StepPlan
 
 Array = NDArray[Any]
 
@@ -27,8 +28,10 @@ class RunPoint:
     ----------
     phase : int
         Number of the phase; -1 before the first one.
-    at, step, bound : float
-        Coordinate of the phase, the next step to try, and what a failed step bounds it by.
+    at : float
+        Coordinate of the phase.
+    plan : StepPlan
+        How the next step is to be tried.
     state : CoupledState
         Accepted state.
     audit : EnergyAudit
@@ -43,8 +46,7 @@ class RunPoint:
 
     phase: int
     at: float
-    step: float
-    bound: float
+    plan: StepPlan
     state: CoupledState
     audit: EnergyAudit
     iterations: int

@@ -57,14 +57,15 @@ def steady_share(history: pd.DataFrame, part: str, whole: str) -> float:
 def steady_shares(history: pd.DataFrame) -> dict[str, float]:
     """What becomes, in the second half of the slide, of the work that is not friction [-].
 
-    `regularisation_share` is dissipated by the Kelvin-Voigt term, `storage_share` stored as
+    `regularisation_share` is dissipated by the damping outside of snaps, `storage_share` stored as
     strain energy. In steady sliding both vanish: nothing is stored and no strain changes. A
-    storage share of some per cent tells that the leading edge is still rolling under; what its
-    snaps release is then found in the regularisation share, however small the viscosity.
+    storage share of some per cent tells that the leading edge is still rolling under.
     """
     work = "work_in_mJ_per_mm"
+    viscous, snaps = "viscous_dissipation_mJ_per_mm", "snap_dissipation_mJ_per_mm"
     return {
-        "regularisation_share": steady_share(history, "viscous_dissipation_mJ_per_mm", work),
+        "regularisation_share": steady_share(history, viscous, work)
+        - steady_share(history, snaps, work),
         "storage_share": steady_share(history, "strain_energy_mJ_per_mm", work),
     }
 

@@ -27,7 +27,7 @@ from fem.outcome import OK, Outcome, failed, stoppable
 from fem.program_version import program_version
 from fem.programme import Phase, programme
 from fem.recorder import Recorder
-from fem.regularisation import viscosity
+from fem.regularisation import SnapDamping
 from fem.results import Result
 from fem.rigid_run import simulate_rigid
 from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
@@ -41,7 +41,8 @@ from fem.run_summary import (
     sliding_means,
     steady_shares,
 )
-from fem.step_control import StepController, landed
+from fem.sliding_regime import sliding_regime
+from fem.step_control import StepController, StepPlan, landed
 from fem.trust import judged
 
 #: Contact modulus of the block with itself over the contact's reference modulus: the bulk modulus,
@@ -62,7 +63,6 @@ def coupled_model(case: Case) -> CoupledModel:
         mesh,
         Q1P0Elements(mesh, rubber, case.rubber.bulk_modulus),
         density=case.rubber.thermal.density if solver.inertia else 0.0,
-        viscosity=viscosity(case, mesh),
         top=case.loading.top,
         tolerance=solver.tolerance * force,
         solver=linear_solver(solver.linear_solver, 2 * len(mesh.points)),
@@ -76,6 +76,7 @@ def coupled_model(case: Case) -> CoupledModel:
         mechanics,
         HeatModel.from_case(case, mesh),
         laws,
+        damping=SnapDamping.from_case(case, mesh),
         mean_pressure=case.loading.mean_pressure_N_per_mm2,
         friction_passes=solver.friction_passes,
         options=newton.NewtonOptions(iterations_max=solver.newton_iterations_max),
@@ -119,7 +120,7 @@ class _Run:
                     f"{len(self.model.mechanics.mesh.cells)} elements",
                     case.friction.described()]  # fmt: skip
         self.snapshot_distances = snapshots_due(case)
-        self.point = self._point(-1, 0.0, 0.0, np.inf)
+        self.point = self._point(-1, 0.0, StepPlan(step=0.0))
 
     @property
     def wall(self) -> float:
@@ -132,10 +133,10 @@ class _Run:
         mechanics, heat = self.model.mechanics.solver, self.model.heat.block.stopwatch
         return self.solver_seconds_before + mechanics.seconds + heat.seconds
 
-    def _point(self, phase: int, at: float, step: float, bound: float) -> RunPoint:
+    def _point(self, phase: int, at: float, plan: StepPlan) -> RunPoint:
         recorder = self.recorder
         return RunPoint(
-            phase=phase, at=at, step=step, bound=bound, state=self.state, audit=self.audit,
+            phase=phase, at=at, plan=plan, state=self.state, audit=self.audit,
             iterations=self.iterations, rejected=self.rejected, smallest_J=recorder.smallest_J,
             rows=len(recorder.rows), snapshots=len(recorder.snapshots), log=len(self.log),
         )  # fmt: skip
@@ -181,34 +182,35 @@ class _Run:
         if number < self.point.phase:
             return Outcome(status=OK)
         control = StepController(step_max=phase.step_max, step_min=phase.step_min)
-        step, at, bound = phase.step_initial, 0.0, np.inf
+        plan, at = StepPlan(step=phase.step_initial), 0.0
         if number == self.point.phase:
-            step, at, bound = self.point.step, self.point.at, self.point.bound
+            plan, at = self.point.plan, self.point.at
+        snaps = False
         while at < phase.end:
-            length = landed(at, step, phase.end)
+            length = landed(at, plan.step, phase.end)
             stop = phase.end if length == phase.end - at else at + length
-            attempt = self.model.advance(self.state, phase.target(at, stop))
+            attempt = self.model.advance(self.state, phase.target(at, stop), plan.help)
             self.iterations += attempt.iterations
             if isinstance(attempt, AcceptedStep):
                 at = stop
-                self._accept(attempt, phase, at)
-                bound *= control.recovery
-                step = control.accepted(length, attempt.hardest_pass, bound)
-                self.point = self._point(number, at, step, bound)
+                self._accept(attempt, phase, at, snaps)
+                plan, snaps = control.accepted(plan, length, attempt.hardest_pass), False
+                self.point = self._point(number, at, plan)
                 self._report()
                 continue
             self.rejected += 1
             self.log.append(
-                f"{phase.name} {at:.6g}: step {length:.3g} rejected, {attempt.failure.value}"
+                f"{phase.name} {at:.6g}: step {length:.3g} rejected with damping {plan.help:.3g}, "
+                f"{attempt.failure.value}"
             )
-            step, bound = control.rejected(length), control.caution * length
-            if control.exhausted(step):
+            plan, snaps = control.rejected(plan, length), True
+            if control.exhausted(plan):
                 unit = " mm" if phase.slides else " of the load"
                 return failed(attempt.failure, attempt.detail, f"{phase.name} {at:.4g}{unit}")
         return Outcome(status=OK)
 
-    def _accept(self, step: AcceptedStep, phase: Phase, at: float) -> None:
-        self.audit = audited(self.audit, step, self.model.mechanics)
+    def _accept(self, step: AcceptedStep, phase: Phase, at: float, snaps: bool) -> None:
+        self.audit = audited(self.audit, step, self.model.mechanics, snaps=snaps)
         self.state = step.after
         row = self.recorder.record(step, self.audit)
         distance = at if phase.slides else 0.0
@@ -315,6 +317,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
     """Scalars of a run; forces and lengths are means over the sliding phase at full speed."""
     history = pd.DataFrame(run.recorder.rows)
     mechanics, heat, case = run.model.mechanics, run.state.heat, run.case
+    regime = sliding_regime(history)
     summary: dict[str, Any] = {"status": outcome.status}
     if outcome.reason:
         summary |= {"reason": outcome.reason, "advice": outcome.advice}
@@ -332,6 +335,7 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "capped_heat_share": run.audit.capped_share,
         "rejected_steps": run.rejected,
         "regularisation_share_with_onset": run.audit.regularisation_share,
+        "snap_share": run.audit.snap_share,
         "friction_lag_error": largest(history, "friction_lag_error"),
         "friction_lag_share": lag_share(history),
         "largest_self_penetration": largest(history, "self_contact_penetration"),
@@ -339,7 +343,13 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "min_J": run.recorder.smallest_J,
         "solver_s": run.solver_seconds,
         "program_version": program_version(),
-        "warnings": [*case.warnings, *window_warnings(case, run.recorder.rows)],
+        "sliding_regime": regime.name,
+        "stick_slip_cycles": regime.cycles,
+        "warnings": [
+            *case.warnings,
+            *regime.warnings,
+            *window_warnings(case, run.recorder.rows),
+        ],
     }
     return judged(summary)
 

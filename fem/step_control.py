@@ -1,14 +1,36 @@
-"""Adaptive step length from the outcome of steps; it knows neither solver nor physics."""
+"""Adaptive step length and help from the outcome of steps; it knows neither solver nor physics."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 
 
 @dataclass(frozen=True, kw_only=True)
+class StepPlan:
+    """How the next step is tried.
+
+    Attributes
+    ----------
+    step : float
+        Its length.
+    bound : float
+        What an earlier failure bounds the next lengths by.
+    help : float
+        Level of the help it gets (damping); 0 for none.
+    """
+
+    step: float
+    bound: float = inf
+    help: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class StepController:
-    """Next step length from the last one.
+    """The next plan from the last one and its outcome.
+
+    A failed step gets help first and is cut only when there is enough of that: a snap that no step
+    length avoids is gone through in a few steps with help, in hundreds without.
 
     Attributes
     ----------
@@ -19,8 +41,12 @@ class StepController:
     growth, shrink, cut : float
         Factors after an easy, a hard and a failed step.
     caution, recovery : float
-        Steps after a failed one stay below `caution` times its length, a bound that rises by
+        Steps after a cut stay below `caution` times the failed length, a bound that rises by
         `recovery` with each accepted step: what made a step fail is seldom gone after the next.
+    first_help, more_help, enough_help : float
+        Level after a first failure, its factor after another, and from where on steps are cut.
+    fading, no_help : float
+        Factor of the level after an accepted step, and below which level there is none.
     """
 
     step_max: float
@@ -31,23 +57,32 @@ class StepController:
     shrink: float = 0.75
     cut: float = 0.5
     caution: float = 0.7
-    recovery: float = 1.15
+    recovery: float = 1.5
+    first_help: float = 1.0
+    more_help: float = 2.0
+    enough_help: float = 4.0
+    fading: float = 0.85
+    no_help: float = 0.3
 
-    def accepted(self, step: float, iterations: int, bound: float = inf) -> float:
-        """Step after an accepted one, below the bound that a failed step has left."""
+    def accepted(self, plan: StepPlan, length: float, iterations: int) -> StepPlan:
+        """Plan after an accepted step of this length."""
+        step, bound, level = length, plan.bound * self.recovery, plan.help * self.fading
         if iterations <= self.easy:
             step *= self.growth
         elif iterations > self.hard:
             step *= self.shrink
-        return min(max(min(step, bound), self.step_min), self.step_max)
+        step = min(max(min(step, bound), self.step_min), self.step_max)
+        return StepPlan(step=step, bound=bound, help=level if level >= self.no_help else 0.0)
 
-    def rejected(self, step: float) -> float:
-        """Step after a failed one; below `step_min` the run has to end."""
-        return step * self.cut
+    def rejected(self, plan: StepPlan, length: float) -> StepPlan:
+        """Plan after a failed step of this length: more help, or a shorter step."""
+        if plan.help < self.enough_help:
+            return replace(plan, step=length, help=max(self.first_help, self.more_help * plan.help))
+        return replace(plan, step=length * self.cut, bound=self.caution * length)
 
-    def exhausted(self, step: float) -> bool:
+    def exhausted(self, plan: StepPlan) -> bool:
         """Whether a step is too small to go on with."""
-        return step < self.step_min
+        return plan.step < self.step_min
 
 
 def landed(position: float, step: float, end: float) -> float:

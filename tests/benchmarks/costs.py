@@ -65,9 +65,11 @@ def reference_factorisation() -> Call:
 def mechanical_calls(mesh: BlockMesh) -> dict[str, Call]:
     """Assembly, factorisation, iteration and whole step of the pressed block's first slide."""
     elements = Q1P0Elements(mesh, YEOH, 100.0 * YEOH.initial_shear_modulus)
-    system = BlockMechanics(mesh, elements, density=1.207e-9, viscosity=0.008, tolerance=5e-8)
+    system = BlockMechanics(mesh, elements, density=1.207e-9, tolerance=5e-8)
     state = pressed(system, 5.0, mu=0.3, steps=4, dt=0.02)
-    problem = system.step(state, load_of(system, force=5.0, mu=0.3, sweep=0.02, dt=1e-3))
+    problem = system.step(
+        state, load_of(system, force=5.0, mu=0.3, sweep=0.02, dt=1e-3, viscosity=0.008)
+    )
     x = problem.start()
 
     def assembly() -> csc_matrix:

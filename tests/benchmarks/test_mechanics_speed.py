@@ -21,7 +21,7 @@ def system():
     """The introductory example's block with its inertia and a Kelvin-Voigt term."""
     mesh = block_mesh(20.0, 8.0, NAMED_GRADINGS["default"])
     elements = Q1P0Elements(mesh, YEOH, 100.0 * YEOH.initial_shear_modulus)
-    return BlockMechanics(mesh, elements, density=1.207e-9, viscosity=0.008, tolerance=5e-8)
+    return BlockMechanics(mesh, elements, density=1.207e-9, tolerance=5e-8)
 
 
 @pytest.fixture(scope="module")

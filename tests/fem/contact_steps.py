@@ -9,7 +9,7 @@ from fem import newton
 from fem.elements import Q1P0Elements
 from fem.mechanics import BlockMechanics, StepLoad
 from fem.state import MechanicalState
-from fem.step_control import StepController, landed
+from fem.step_control import StepController, StepPlan, landed
 from materials import compound
 from tests.fem.small_blocks import uniform_block
 
@@ -24,9 +24,18 @@ def small_block(mesh=None, model=YEOH, bulk_ratio=100.0, **options):
     return BlockMechanics(mesh, elements, **{"tolerance": 1e-9, **options})
 
 
-def load_of(system, *, force, mu=0.0, sweep=0.0, dt=1.0):
+#: Kelvin-Voigt viscosity of the steps of blocks with mass [N s/mm^2].
+VISCOSITY = 0.01
+
+
+def load_of(system, *, force, mu=0.0, sweep=0.0, dt=1.0, viscosity=None):
+    """Load of a step; a block with mass is damped too, unless a viscosity is given."""
     values = np.broadcast_to(np.asarray(mu, dtype=float), (system.candidates.size,)).copy()
-    return StepLoad(dt=dt, sweep=sweep, force=force, mu=values)
+    if viscosity is None:
+        viscosity = VISCOSITY if system.mass.any() else 0.0
+    rate = np.full((len(system.mesh.cells), 1), viscosity / dt)
+    damping = rate if viscosity > 0.0 else None
+    return StepLoad(dt=dt, sweep=sweep, force=force, mu=values, damping=damping)
 
 
 def solved(system, state, load):
@@ -50,10 +59,10 @@ def pressed(system, force, mu=0.0, steps=2, dt=1.0):
 
 def slid(system, state, *, distance, speed, force, mu, step=0.05):
     """State after sliding a distance [mm] at a speed [mm/s] in steps that converge."""
-    control = StepController(step_max=step, step_min=1e-5)
-    at, length = 0.0, step
+    control = StepController(step_max=step, step_min=1e-5, enough_help=0.0)
+    at, plan = 0.0, StepPlan(step=step)
     while at < distance:
-        length = landed(at, length, distance)
+        length = landed(at, plan.step, distance)
         load = load_of(system, force=force, mu=mu, sweep=length, dt=length / speed)
         problem = system.step(state, load)
         result = newton.solve(problem, problem.start(), OPTIONS)
@@ -63,10 +72,10 @@ def slid(system, state, *, distance, speed, force, mu, step=0.05):
                 u=result.x.u, velocity=problem.velocity(result.x.u), p=result.x.p,
                 status=result.x.status,
             )  # fmt: skip
-            length = control.accepted(length, result.iterations)
+            plan = control.accepted(plan, length, result.iterations)
             continue
-        length = control.rejected(length)
-        assert not control.exhausted(length), (at, result.failure, result.detail)
+        plan = control.rejected(plan, length)
+        assert not control.exhausted(plan), (at, result.failure, result.detail)
     return state
 
 

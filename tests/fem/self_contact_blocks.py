@@ -8,7 +8,7 @@ from contact.self_contact import dissipation, find_pairs, followed, pair_penetra
 from fem import newton
 from fem.simulate import SELF_CONTACT_STIFFNESS
 from fem.state import MechanicalState
-from fem.step_control import StepController, landed
+from fem.step_control import StepController, StepPlan, landed
 from tests.fem.contact_steps import OPTIONS, load_of
 
 
@@ -64,19 +64,19 @@ def self_contact_step(system, state, load, *, reach, mu=1.0, passes=8):
 
 def pressed_onto_itself(system, force, *, first, step_max, reach, mu=1.0, road_mu=0.0):
     """Accepted steps of a block that is pressed to a force [N/mm]; steps that fail are halved."""
-    control = StepController(step_max=step_max, step_min=1e-4 * force)
-    state, steps, at, length = system.initial_state(), [], 0.0, first
+    control = StepController(step_max=step_max, step_min=1e-4 * force, enough_help=0.0)
+    state, steps, at, plan = system.initial_state(), [], 0.0, StepPlan(step=first)
     while at < force:
-        length = landed(at, length, force)
+        length = landed(at, plan.step, force)
         load = load_of(system, force=at + length, mu=road_mu)
         step = self_contact_step(system, state, load, reach=reach, mu=mu)
         if step is None:
-            length = control.rejected(length)
-            assert not control.exhausted(length), f"stuck at {at} N/mm"
+            plan = control.rejected(plan, length)
+            assert not control.exhausted(plan), f"stuck at {at} N/mm"
             continue
         steps.append(step)
         state, at = step.state, at + length
-        length = control.accepted(length, step.result.iterations)
+        plan = control.accepted(plan, length, step.result.iterations)
     return steps
 
 

@@ -35,7 +35,7 @@ def test_nothing_done_is_no_error():
     assert (nothing.error, nothing.regularisation_share, nothing.capped_share) == (0.0, 0.0, 0.0)
 
 
-def pressing_run(steps, **solver):
+def pressing_run(steps, *, level=0.0, snaps=False, **solver):
     """Audit of the pressing phase of a frictionless block in equal steps."""
     spec = {"cells_x": 12, "cells_y": 6, "smallest_x_mm": 1.6, "smallest_y_mm": 1.3}
     case = Case.from_dict(
@@ -53,15 +53,15 @@ def pressing_run(steps, **solver):
     model, phase = coupled_model(case), programme(case)[0]
     state, audit = model.initial_state(), EnergyAudit()
     for k in range(steps):
-        step = model.advance(state, phase.target(k / steps, (k + 1) / steps))
+        step = model.advance(state, phase.target(k / steps, (k + 1) / steps), level)
         assert isinstance(step, AcceptedStep)
-        audit, state = audited(audit, step, model.mechanics), step.after
+        audit, state = audited(audit, step, model.mechanics, snaps=snaps), step.after
     return audit
 
 
 def test_elastic_pressing_stores_the_work_and_its_error_is_of_second_order():
     """No friction, inertia or viscosity: the trapezoidal rule alone is left."""
-    errors = [pressing_run(n, inertia=False, viscous_distance_mm=0.0).error for n in (4, 8, 16)]
+    errors = [pressing_run(n, inertia=False).error for n in (4, 8, 16)]
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert errors[-1] < 1e-3
     assert (orders > 1.8).all()
@@ -69,7 +69,7 @@ def test_elastic_pressing_stores_the_work_and_its_error_is_of_second_order():
 
 
 def test_elastic_pressing_dissipates_nothing():
-    audit = pressing_run(4, inertia=False, viscous_distance_mm=0.0)
+    audit = pressing_run(4, inertia=False)
     assert audit.viscous == 0.0
     assert audit.kinetic == 0.0
     # Without friction the shear forces vanish to the tolerance of the forces.
@@ -77,9 +77,15 @@ def test_elastic_pressing_dissipates_nothing():
     assert audit.work_in > 0.0
 
 
-def test_viscous_pressing_dissipates_and_balances_on_finer_steps():
-    errors = [pressing_run(n).error for n in (8, 32)]
-    audit = pressing_run(32)
-    assert audit.viscous > 0.0
-    assert errors[1] < 0.5 * errors[0]
-    assert errors[1] < 0.02
+def test_damped_pressing_dissipates_and_balances_on_finer_steps():
+    audits = [pressing_run(n, level=20.0) for n in (8, 32)]
+    assert audits[1].viscous > 0.0
+    assert audits[1].error < 0.5 * audits[0].error
+    assert audits[1].error < 0.02
+
+
+def test_damping_counts_as_snaps_only_where_the_step_had_no_solution_without():
+    damped, snapped = (pressing_run(4, level=20.0, snaps=snaps) for snaps in (False, True))
+    assert damped.viscous == snapped.viscous > 0.0
+    assert (damped.snap_share, snapped.regularisation_share) == (0.0, 0.0)
+    assert damped.regularisation_share == snapped.snap_share > 0.0

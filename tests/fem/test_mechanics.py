@@ -23,7 +23,7 @@ from tests.fem.small_blocks import consistent_pressure, uniform_block
 from tests.materials.models import MODELS
 
 FORCE = 1.2
-DYNAMIC = {"density": 1e-6, "viscosity": 0.01}
+DYNAMIC = {"density": 1e-6}
 
 
 def mixed_mu(system):
