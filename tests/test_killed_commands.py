@@ -12,13 +12,13 @@ import pytest
 
 from tests.machines import CASE, contents, is_one_line, run, start, without_warnings, write_inputs
 
-SLIDES = "mean_pressure_N_per_mm2,v_mm_per_s,T_max_C\n0.25,300,27\n0.25,50,22.5\n0.4,300,29\n"
+SLIDES = "mean_pressure_N_per_mm2,v_mm_per_s,T_max_C\n0.25,300,23.5\n0.25,50,21.6\n0.4,300,24.5\n"
 COMMANDS = {
     "run": (("run", "case.toml"), ("--resume",)),
     "sweep": (("sweep", "study.toml", "--workers", "2"), ("--resume",)),
     # It goes on by itself.
     "calibrate": (
-        ("calibrate", "partition", "slides.csv", "--case", "case.toml", "--simulations", "2"),
+        ("calibrate", "partition", "slides.csv", "--case", "case.toml", "--simulations", "4"),
         (),
     ),
 }
