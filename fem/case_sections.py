@@ -161,7 +161,7 @@ class Solver(Section):
     edge_viscous_distance_mm: _ViscousDistance = Field(
         5.0, description="the same, added at the leading corner [mm]"
     )
-    edge_radius_mm: Positive = Field(
+    edge_radius_mm: Annotated[Positive, Field(ge=1e-6, le=1e6)] = Field(
         2.0, description="distance from the leading corner over which that fades [mm]"
     )
     self_contact: bool = Field(True, description="contact of the block's surface with itself")

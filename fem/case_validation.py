@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -10,6 +11,8 @@ from pydantic_core import ErrorDetails
 from fem.case_errors import CaseError, describe, nearest, one_of, suggestion
 from fem.case_reading import REFERRING_SECTIONS, Source
 
+#: What of a location is a key; the rest is how pydantic calls the kinds it may be.
+_KEY = re.compile(r"\w+")
 _KINDS = {
     "float_type": "a number",
     "float_parsing": "a number",
@@ -82,8 +85,8 @@ def _advice(
 
 def case_error(error: ValidationError, source: Source) -> CaseError:
     """Turn the first fault of a pydantic error into a `CaseError`."""
-    fault = error.errors(include_url=False)[0]
-    location = tuple(str(part) for part in fault["loc"] if not str(part).startswith("<"))
+    fault = _telling(error.errors(include_url=False))
+    location = tuple(str(part) for part in fault["loc"] if _KEY.fullmatch(str(part)))
     context = fault.get("ctx", {})
     if fault["type"] == "case":
         location += tuple(part for part in context["key"].split(".") if part)
@@ -96,6 +99,15 @@ def case_error(error: ValidationError, source: Source) -> CaseError:
         found=found,
         expected=expected,
     )
+
+
+def _telling(faults: list[ErrorDetails]) -> ErrorDetails:
+    """The first fault; of a key that takes a name or a number that of the kind that was given."""
+    first = faults[0]
+    if first["type"] == "literal_error" and not isinstance(first["input"], str):
+        same = [fault for fault in faults[1:] if fault["input"] == first["input"]]
+        return (same or faults)[0]
+    return first
 
 
 def _found(fault: ErrorDetails) -> str:

@@ -241,6 +241,17 @@ RANGES = [
     _value("tiny heat step", "solver", "heat_step_mm = 1e-300", "1e-300", "at least 1e-07"),
     _value("small heat step", "solver", "heat_step_mm = 1e-9", "1e-09", "at least 1e-07"),
     _value("tiny step", "solver", "step_mm_min = 1e-300", "1e-300", "at least 1e-07"),
+    _value(
+        "pressure of the heat partition in kPa",
+        "heat.partition",
+        "pressure = 300",
+        "300.0, which looks like kPa",
+        "from 1e-06 to 20",
+    ),
+    _value(
+        "word for a pressure", "heat.partition", 'pressure = "maen"', '"maen"', '"mean" (or "local"'
+    ),
+    _value("tiny radius", "solver", "edge_radius_mm = 1e-300", "1e-300", "at least 1e-06"),
     _value("seven passes", "solver", "friction_passes = 7", "7", "at most 6"),
     _value("huge friction", "friction", "alpha = 1e300", "1e+300", "at most 1e+06"),
     _whole(
