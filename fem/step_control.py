@@ -29,7 +29,7 @@ class StepPlan:
 class StepController:
     """The next plan from the last one and its outcome.
 
-    A failed step gets help first and is cut only when there is enough of that: a snap that no step
+    A failed step gets help first, and is cut too when there is enough of that: a snap that no step
     length avoids is gone through in a few steps with help, in hundreds without.
 
     Attributes
@@ -43,8 +43,9 @@ class StepController:
     caution, recovery : float
         Steps after a cut stay below `caution` times the failed length, a bound that rises by
         `recovery` with each accepted step: what made a step fail is seldom gone after the next.
-    first_help, more_help, enough_help : float
-        Level after a first failure, its factor after another, and from where on steps are cut.
+    first_help, more_help, enough_help, most_help : float
+        Level after a first failure, its factor after another, from where on steps are cut too, and
+        the largest one.
     fading, no_help : float
         Factor of the level after an accepted step, and below which level there is none.
     """
@@ -61,6 +62,7 @@ class StepController:
     first_help: float = 1.0
     more_help: float = 2.0
     enough_help: float = 4.0
+    most_help: float = 64.0
     fading: float = 0.85
     no_help: float = 0.3
 
@@ -75,10 +77,11 @@ class StepController:
         return StepPlan(step=step, bound=bound, help=level if level >= self.no_help else 0.0)
 
     def rejected(self, plan: StepPlan, length: float) -> StepPlan:
-        """Plan after a failed step of this length: more help, or a shorter step."""
+        """Plan after a failed step of this length: more help, or more and a shorter step."""
         if plan.help < self.enough_help:
             return replace(plan, step=length, help=max(self.first_help, self.more_help * plan.help))
-        return replace(plan, step=length * self.cut, bound=self.caution * length)
+        level = min(self.more_help * plan.help, self.most_help)
+        return StepPlan(step=length * self.cut, bound=self.caution * length, help=level)
 
     def exhausted(self, plan: StepPlan) -> bool:
         """Whether a step is too small to go on with."""

@@ -43,7 +43,13 @@ def test_a_failed_step_gets_more_help_before_it_is_cut():
     assert levels == sorted(levels)
     assert levels[-1] >= CONTROL.enough_help
     assert plan.step == 0.5 * CONTROL.cut
-    assert plan.help == levels[-1]
+    assert plan.help == levels[-1] * CONTROL.more_help
+
+
+def test_help_has_an_end_and_cuts_have_none():
+    plan = StepPlan(step=1.0, help=CONTROL.most_help)
+    assert CONTROL.rejected(plan, 1.0).help == CONTROL.most_help
+    assert CONTROL.rejected(plan, 1.0).step == CONTROL.cut
 
 
 def test_help_fades_to_nothing():
