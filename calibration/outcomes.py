@@ -33,6 +33,7 @@ from calibration.simulation_progress import SimulationProgress
 from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStore
 from calibration.stress_data import select_data
 from calibration.wlf import fit_wlf, read_shift_factors
+from fem import spreadsheet
 from fem.atomic_files import staged_directory
 from fem.case import Case
 
@@ -264,7 +265,7 @@ def _files(result: FitResult, points: pd.DataFrame) -> dict[str, bytes]:
 
 
 def _csv(table: pd.DataFrame) -> bytes:
-    return table.to_csv(index=False).encode()
+    return spreadsheet.csv_text(table).encode()
 
 
 def _shown(table: pd.DataFrame) -> str:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from fem import spreadsheet
 from fem.atomic_files import staged_directory
 from fem.bottom_history import BOTTOM_FILE, BottomHistory
 from fem.boundary_table import surface_table
@@ -171,7 +172,8 @@ def write_summary(directory: str | Path, summary: Mapping[str, Any]) -> None:
     clean = {key: plain(value) for key, value in summary.items()}
     row = {**clean, "warnings": joined(clean["warnings"])}
     text = json.dumps(clean, indent=2, allow_nan=False, ensure_ascii=False)
-    pd.DataFrame([row]).to_csv(directory / SUMMARY_CSV, index=False, lineterminator="\n")
+    table = spreadsheet.csv_text(pd.DataFrame([row]))
+    (directory / SUMMARY_CSV).write_text(table, encoding="utf-8")
     (directory / SUMMARY_JSON).write_text(text + "\n", encoding="utf-8")
 
 

@@ -2,6 +2,7 @@
 
 import argparse
 import tomllib
+from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -40,6 +41,15 @@ def test_hyperelastic_writes_parameters_points_comparison_and_pictures(tmp_path,
     difference = points["fit_N_per_mm2"] - points["nominal_stress_N_per_mm2"]
     assert difference.to_numpy() == pytest.approx(points["residual_N_per_mm2"].to_numpy())
     assert (output / "fit.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_text_that_a_spreadsheet_would_run_is_quoted_in_the_tables(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rows = "".join(f"{s},{s - s**-2:.5f},uniaxial\n" for s in (1.1, 1.3, 1.6, 2.0))
+    Path("=t.csv").write_text("stretch,nominal_stress_N_per_mm2,mode\n" + rows)
+    assert run(["hyperelastic", "=t.csv", "--model", "neo-hooke", "-o", "out"]) == 0
+    # Why a model with more parameters than points was not fitted begins with the file's name.
+    assert "'=t.csv" in Path("out/models.csv").read_text()
 
 
 def test_options_reach_the_fit(tmp_path):

@@ -124,6 +124,14 @@ def test_summary_is_valid_json_whatever_it_holds(tmp_path):
     assert row["reason"] == summary["reason"]
 
 
+def test_text_that_a_spreadsheet_would_run_is_quoted_in_the_summary(tmp_path):
+    write_summary(tmp_path, {**made_up_summary(), "reason": "=cmd", "warnings": ["@a", "=b"]})
+    table = pd.read_csv(tmp_path / "summary.csv")
+    assert table["reason"].tolist() == ["'=cmd"]
+    assert table["warnings"].tolist() == ["'@a | =b"]
+    assert read_summary(tmp_path)["reason"] == "=cmd"
+
+
 def test_a_run_without_accepted_steps_is_written_with_headers(result, tmp_path):
     empty = from_parts(result, rows=[], snapshots=[])
     empty.write(tmp_path)

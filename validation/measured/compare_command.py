@@ -72,9 +72,7 @@ def write_comparison(measured: str | Path, results: str | Path, directory: str |
     lines = [*said, *(f"warning: {line}" for line in measurements.unusual), text]
     write_text(directory / "comparison.log", "\n".join(lines) + "\n")
     for name, table in tables.items():
-        write_text(
-            directory / name, spreadsheet.table(table).to_csv(index=False, lineterminator="\n")
-        )
+        write_text(directory / name, spreadsheet.csv_text(table))
     save(draw_comparison(comparison), directory / "comparison.png")
     if measurements.profiles:
         save(draw_profiles(measurements, runs), directory / "profiles.png")

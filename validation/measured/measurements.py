@@ -197,9 +197,10 @@ def _conditions(table: Table) -> pd.DataFrame:
     return frame
 
 
-def _words(entries: pd.Series) -> list[str]:
+def _words(entries: pd.Series) -> NDArray[np.object_]:
     """The entries as words without surrounding spaces; empty where there is none."""
-    return [str(entry).strip() for entry in entries.fillna("")]
+    code, names = pd.factorize(entries.fillna(""))
+    return np.array([str(name).strip() for name in names], dtype=object)[code]
 
 
 def _optional_numbers(table: Table, column: str) -> FloatArray:
@@ -207,7 +208,7 @@ def _optional_numbers(table: Table, column: str) -> FloatArray:
     values = np.full(len(table), np.nan)
     if table.has(column):
         entries = table.frame[column]
-        stated = np.array([entry != "" for entry in _words(entries)], dtype=bool)
+        stated = np.asarray(_words(entries) != "", dtype=bool)
         if stated.any():
             own = table.select(stated)
             numbers = own.numbers(column)
