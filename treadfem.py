@@ -9,10 +9,8 @@ accepted is written, `--resume` goes on from it).
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import sys
-from collections.abc import Callable, Iterable, Sequence
-from functools import partial
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -21,15 +19,17 @@ from fem.case_errors import CaseError
 from fem.case_reading import parse_override
 from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
 from fem.cost import estimated_cost, refuse_unaffordable
-from fem.interruption import gently, listening, requested
+from fem.interruption import gently, listening
 from fem.machine_faults import cause, one_line
+from fem.messages import BAD_INPUT, DONE, INTERRUPTED, NOT_CONVERGED, WARNED, say_of, warn
 from fem.output_folder import check_output_file, chosen_output, output_folder
 from fem.results import FIGURES_FOLDER, RUN_FILES, read_summary
 from fem.resume import resumable
+from fem.run_progress import RunProgress
 from fem.template import case_template
 from fem.terminal import lenient_streams, open_standard_descriptors
+from validation.commands import add_arguments as add_paper_commands
 
-DONE, BAD_INPUT, NOT_CONVERGED, WARNED, INTERRUPTED = 0, 2, 3, 4, 130
 _STATUS_CODES = {"ok": DONE, "interrupted": INTERRUPTED}
 
 # What draws or fits is imported by the commands that need it: matplotlib takes a second to load.
@@ -86,11 +86,7 @@ def _parser(command: str) -> argparse.ArgumentParser:
     _add_calibrate(commands, wanted=command == "calibrate")
     _add_sweep(commands)
     _add_compare(commands)
-    _add_figure(commands)
-    _add_table(commands)
-    _add_claims(commands)
-    _add_sensitivity(commands)
-    _add_report(commands)
+    add_paper_commands(commands)
     _add_export(commands)
     return parser
 
@@ -129,22 +125,10 @@ def _load(arguments: argparse.Namespace) -> Case:
     """The case of a command that may run it: what cannot be is refused, what is unusual said."""
     overrides = dict(parse_override(text) for text in arguments.overrides)
     case = Case.from_toml(arguments.case, overrides)
-    if case.solver.linear_solver == "pardiso" and importlib.util.find_spec("pypardiso") is None:
-        raise CaseError(
-            file=case.source,
-            key="solver.linear_solver",
-            found='"pardiso" without the package pypardiso',
-            expected='"auto" or "superlu", or treadfem installed with the extra "fast"',
-        )
     refuse_unaffordable(case)
     if not arguments.accept_unusual:
-        _warn(f"{case.source}: {sentence}" for sentence in case.warnings)
+        warn(f"{case.source}: {sentence}" for sentence in case.warnings)
     return case
-
-
-def _warn(sentences: Iterable[str]) -> None:
-    for sentence in sentences:
-        print(" ".join(f"treadfem: warning: {sentence}".split()), file=sys.stderr)
 
 
 # -- run ---------------------------------------------------------------------------------------
@@ -191,7 +175,7 @@ def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
         return _code(read_summary(directory), said=case.warnings, arguments=arguments)
     # Whatever is asked for meanwhile, what was accepted is written.
     with gently():
-        with _Progress(case, quiet=arguments.quiet) as progress:
+        with RunProgress(case, quiet=arguments.quiet) as progress:
             result = simulate(
                 case, progress=progress, checkpoint=checkpoint, resume=found == "checkpoint"
             )
@@ -232,42 +216,6 @@ def _say_how_it_starts(found: str, checkpoint: Path, *, resume: bool) -> None:
         print(f"starting from the beginning; --resume goes on from {checkpoint}", flush=True)
 
 
-class _Progress:
-    """Shows how far the simulation is: a bar on a terminal, a line per tenth elsewhere."""
-
-    def __init__(self, case: Case, *, quiet: bool) -> None:
-        self.distance = case.loading.distance_mm
-        self.quiet = quiet
-        self.tenths = 0
-        self.bar: Any = None
-
-    def __enter__(self) -> _Progress:
-        if not self.quiet and sys.stderr.isatty():
-            from tqdm import tqdm
-
-            self.bar = tqdm(total=self.distance, unit="mm", bar_format=_BAR, leave=False)
-        return self
-
-    def __exit__(self, *exc: object) -> None:
-        if self.bar is not None:
-            self.bar.close()
-
-    def __call__(self, state: Any) -> None:
-        done = min(abs(state.sliding_distance_mm), self.distance)
-        if self.bar is not None:
-            self.bar.set_postfix_str(f"T_max {state.T_max_C:.1f} C", refresh=False)
-            self.bar.update(done - self.bar.n)
-        elif not self.quiet and int(10.0 * done / self.distance + 1e-9) > self.tenths:
-            self.tenths = int(10.0 * done / self.distance + 1e-9)
-            print(f"{10 * self.tenths:4d} %  {done:8.2f} mm  T_max {state.T_max_C:6.2f} C")
-            sys.stdout.flush()
-        if requested():
-            raise KeyboardInterrupt
-
-
-_BAR = "{percentage:3.0f} %|{bar}| {n:.1f}/{total:g} mm [{elapsed}<{remaining}]{postfix}"
-
-
 def _close(
     summary: dict[str, Any], directory: Path, said: Sequence[str], arguments: argparse.Namespace
 ) -> int:
@@ -292,7 +240,7 @@ def _code(summary: dict[str, Any], *, said: Sequence[str], arguments: argparse.N
         # Why it has not finished is what matters; the summary has the warnings.
         return code
     found = [warning for warning in summary.get("warnings") or [] if warning not in said]
-    _warn(found)
+    warn(found)
     counted = bool(found) or (bool(said) and not arguments.accept_unusual)
     return WARNED if counted and arguments.strict else DONE
 
@@ -362,7 +310,7 @@ def _sweep(arguments: argparse.Namespace) -> int:
 
 
 def _warn_of(file: str) -> Callable[[str], None]:
-    return lambda sentence: _warn([f"{file}: {sentence}"])
+    return lambda sentence: warn([f"{file}: {sentence}"])
 
 
 def _agreed(size: str) -> bool:
@@ -402,16 +350,9 @@ def _compare(arguments: argparse.Namespace) -> int:
     except DataError as error:
         print(f"treadfem: {error}", file=sys.stderr)
         return BAD_INPUT
-    _say_of(arguments.measured, report.notes, () if arguments.accept_unusual else report.unusual)
+    say_of(arguments.measured, report.notes, () if arguments.accept_unusual else report.unusual)
     print(report.text)
     return DONE
-
-
-def _say_of(file: str, notes: Iterable[str], unusual: Iterable[str]) -> None:
-    """How a file of measurements was understood, and what is unusual about it."""
-    for line in notes:
-        print(f"treadfem: {file}: {line}", file=sys.stderr)
-    _warn(f"{file}: {line}" for line in unusual)
 
 
 # -- check, template ---------------------------------------------------------------------------
@@ -464,195 +405,6 @@ def _add_calibrate(commands: Any, *, wanted: bool) -> None:
         add_arguments(commands)
     else:
         commands.add_parser("calibrate", help="fit parameters to measurements")
-
-
-# -- figure, table, claims, sensitivity, report ------------------------------------------------
-
-
-#: Figures and tables share a folder, since some are made of the same runs.
-_PAPER = "results/figures"
-
-
-def _add_figure(commands: Any) -> None:
-    parser = _add_numbered(commands, "figure")
-    parser.add_argument(
-        "--measured", metavar="FILE.csv", help="measurements to draw into figures 11 and 12"
-    )
-    parser.set_defaults(command=partial(_in_folder, _figure))
-
-
-def _add_table(commands: Any) -> None:
-    parser = _add_numbered(commands, "table")
-    parser.set_defaults(command=partial(_in_folder, _table))
-
-
-def _in_folder(command: Callable[[argparse.Namespace], int], arguments: argparse.Namespace) -> int:
-    """Execute a command while its folder is nobody else's."""
-    folder = chosen_output(arguments.output, Path(_PAPER))
-    with output_folder(folder, folders=("made", "runs")):
-        return command(arguments)
-
-
-def _add_numbered(commands: Any, what: str) -> argparse.ArgumentParser:
-    parser: argparse.ArgumentParser = commands.add_parser(
-        what, help=f"make a {what} of the paper", description=f"Make a {what} of the paper."
-    )
-    parser.add_argument("number", metavar="N|all", help=f"number of the {what}, or all")
-    _add_folder(parser, f"{what}s")
-    return parser
-
-
-def _add_folder(parser: argparse.ArgumentParser, what: str) -> None:
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        default=_PAPER,
-        help=f"folder of the {what} (default: {_PAPER})",
-    )
-    parser.add_argument("--again", action="store_true", help="make what is up to date, too")
-
-
-def _figure(arguments: argparse.Namespace) -> int:
-    from calibration.errors import DataError
-    from validation.measured.measurements import read_measurements
-    from validation.paper.figures import FIGURES, MEASURABLE, make_figure
-
-    numbers = _numbers("figure", arguments, list(FIGURES))
-    measured, inputs = None, []
-    if arguments.measured is not None:
-        try:
-            measured, inputs = read_measurements(arguments.measured), [arguments.measured]
-            _say_of(arguments.measured, measured.notes, measured.unusual)
-        except DataError as error:
-            print(f"treadfem: {error}", file=sys.stderr)
-            return BAD_INPUT
-        if not set(numbers) & set(MEASURABLE):
-            raise CaseError(
-                file="figure",
-                key="--measured",
-                found=f"figure {arguments.number}",
-                expected="a figure that shows measurements: 11, 12 or all",
-            )
-    for number in numbers:
-        make = partial(make_figure, number, arguments.output, measured)
-        own_inputs = inputs if number in MEASURABLE else []
-        if not _made(arguments, f"fig{number}", make, own_inputs):
-            return NOT_CONVERGED
-    if arguments.number == "all":
-        print("figures 1 and 5 of the paper are a sketch and photographs")
-    return DONE
-
-
-def _table(arguments: argparse.Namespace) -> int:
-    from validation.paper.tables import TABLES, make_table
-
-    for number in _numbers("table", arguments, list(TABLES)):
-        make = partial(make_table, number, arguments.output)
-        if not _made(arguments, f"table{number}", make, show=True):
-            return NOT_CONVERGED
-    return DONE
-
-
-def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list[int]:
-    """Numbers that are asked for, once it is clear that they can be made."""
-    if arguments.number == "all":
-        return sorted(known)
-    if arguments.number not in map(str, known):
-        expected = f"one of {', '.join(map(str, sorted(known)))} or all"
-        raise CaseError(file=what, key="N", found=repr(arguments.number), expected=expected)
-    return [int(arguments.number)]
-
-
-def _add_claims(commands: Any) -> None:
-    text = "Check the paper's statements against the simulation, one by one."
-    parser = commands.add_parser("claims", help="check the paper's claims", description=text)
-    _add_folder(parser, "ledger and its runs")
-    parser.set_defaults(command=partial(_in_folder, _claims))
-
-
-def _claims(arguments: argparse.Namespace) -> int:
-    from validation.claims.write import write_claims
-
-    def make() -> Path:
-        _, text = write_claims(arguments.output)
-        return text
-
-    return DONE if _made(arguments, "claims", make, show=True) else NOT_CONVERGED
-
-
-def _add_sensitivity(commands: Any) -> None:
-    text = "Vary what the paper leaves open, one parameter at a time."
-    parser = commands.add_parser("sensitivity", help="vary what is left open", description=text)
-    _add_folder(parser, "table, picture and runs")
-    parser.set_defaults(command=partial(_in_folder, _sensitivity))
-
-
-def _sensitivity(arguments: argparse.Namespace) -> int:
-    from validation.sensitivity.write import write_sensitivity
-
-    make = partial(write_sensitivity, arguments.output)
-    return DONE if _made(arguments, "sensitivity", make, show=True) else NOT_CONVERGED
-
-
-def _made(
-    arguments: argparse.Namespace,
-    name: str,
-    make: Callable[[], Path],
-    inputs: Sequence[str] = (),
-    *,
-    show: bool = False,
-) -> bool:
-    """Make something unless it is up to date, and say so; False if one of its runs failed."""
-    from validation.paper.kept import kept
-    from validation.sweeps.study_runs import StudyError
-
-    directory = Path(arguments.output)
-    try:
-        made = kept(name, directory, make, inputs, again=arguments.again)
-    except StudyError as error:
-        print(f"treadfem: {name}: {error}", file=sys.stderr)
-        return False
-    if show:
-        print(made.path.read_text(encoding="utf-8"))
-    print(made.path if made.again else f"{made.path} (up to date)", flush=True)
-    return True
-
-
-def _add_report(commands: Any) -> None:
-    text = "Put all figures, tables and claims that are made into one HTML page."
-    parser = commands.add_parser("report", help="one page with everything", description=text)
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE.html",
-        default="results/report.html",
-        help="the page (default: results/report.html)",
-    )
-    parser.add_argument(
-        "--figures",
-        metavar="DIR",
-        default=_PAPER,
-        help=f"folder of figures, tables, claims and sensitivity (default: {_PAPER})",
-    )
-    parser.set_defaults(command=_report)
-
-
-def _report(arguments: argparse.Namespace) -> int:
-    from validation.report.write import write_report
-
-    figures = Path(arguments.figures)
-    path = chosen_output(arguments.output, Path("results/report.html"))
-    if not figures.is_dir():
-        raise CaseError(
-            file=str(figures),
-            key="--figures",
-            found="no such folder",
-            expected="what make figures made",
-        )
-    check_output_file(path)
-    print(write_report(figures, path))
-    return DONE
 
 
 # -- export ------------------------------------------------------------------------------------

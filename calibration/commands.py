@@ -9,6 +9,7 @@ from typing import Any, get_args
 
 from calibration.conductance import ALSO
 from calibration.errors import DataError
+from calibration.fit_progress import watched
 from calibration.friction import LAWS
 from calibration.master_curve import Vertical
 from calibration.outcomes import (
@@ -28,11 +29,11 @@ from calibration.tables import ABSOLUTE_ZERO_C
 from fem.case import Case
 from fem.case_errors import CaseError, describe
 from fem.case_reading import parse_override
+from fem.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
 from fem.output_folder import chosen_output, output_folder
 from materials.hyperelastic import MODES
 from materials.wlf import WLF
 
-BAD_INPUT, NOT_CONVERGED = 2, 3
 CONSTANTS = WLF()
 
 
@@ -62,7 +63,10 @@ def run(arguments: argparse.Namespace) -> int:
     directory = _folder(arguments)
     with output_folder(directory, files=[PARAMETERS_FILE], folders=[SIMULATIONS_FOLDER]):
         try:
-            outcome: Outcome = arguments.calibrate(arguments)
+            # The fit of the partition shows its simulations.
+            quiet = arguments.quiet or arguments.kind == "partition"
+            with watched(f"fit to {arguments.data}", quiet=quiet):
+                outcome: Outcome = arguments.calibrate(arguments)
         except ValueError as error:
             # DataError and CaseError say the file; other messages are about the options
             place = "" if isinstance(error, DataError | CaseError) else f"{arguments.data}: "
@@ -73,13 +77,11 @@ def run(arguments: argparse.Namespace) -> int:
             return NOT_CONVERGED
         outcome.write(directory)
     if not arguments.quiet:
-        for line in outcome.notes:
-            print(f"treadfem: {arguments.data}: {line}", file=sys.stderr)
-        for line in () if arguments.accept_unusual else outcome.unusual:
-            print(f"treadfem: warning: {arguments.data}: {line}", file=sys.stderr)
+        unusual = () if arguments.accept_unusual else outcome.unusual
+        say_of(arguments.data, outcome.notes, unusual)
         print(outcome.text)
         print(f"results in {directory}")
-    return 0
+    return DONE
 
 
 def _folder(arguments: argparse.Namespace) -> Path:

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from calibration.errors import DataError
 from calibration.fit_core import FitResult, Loss, Problem, fit, refuse_no_fit
+from calibration.fit_progress import stage
 from calibration.provenance import version
 from calibration.tables import ABSOLUTE_ZERO_C, Table, read_table
 from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction, shifted
@@ -434,6 +435,7 @@ def compare_laws(
     data = read_friction(table)
     found, refused = {}, {}
     for law in laws:
+        stage(f"comparing with {law}")
         try:
             found[law] = fit_friction(data, law, **options)
         except ValueError as error:

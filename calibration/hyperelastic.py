@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from calibration.cycles import Branch
 from calibration.errors import DataError
 from calibration.fit_core import FitResult, Loss, Problem, fit, refuse_no_fit
+from calibration.fit_progress import stage
 from calibration.provenance import version
 from calibration.stability import Stability, check_stability
 from calibration.stress_checks import STRESS, check_modulus
@@ -170,6 +171,7 @@ def compare_models(
 
 
 def _compared(data: StressData, model: str, options: dict[str, Any]) -> dict[str, Any]:
+    stage(f"comparing with {model}")
     try:
         result = fit_hyperelastic(data, model, **options)
     except ValueError as error:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import optimize
 
 from calibration.fit_problem import Loss, Problem
+from calibration.fit_progress import evaluated
 
 Array = NDArray[np.float64]
 
@@ -102,6 +103,7 @@ def _levenberg_marquardt(problem: Problem, x: Array) -> tuple[Array, Array, bool
     cost, damping, k = 0.5 * float(r @ r), 0.0, x.size
     nothing = 1e-20 * float(np.sum(problem.observed**2))
     for _ in range(_MOST_PASSES):
+        evaluated()
         J = problem.slopes(x)
         scale = np.linalg.norm(J, axis=0)
         scale[scale == 0.0] = 1.0  # a parameter without influence stays
@@ -197,12 +199,17 @@ def _local(
     width = problem.upper - problem.lower
     inset = np.minimum(1e-8 * np.maximum(1.0, np.abs(start)), 0.25 * width)
     start = np.clip(start, problem.lower + inset, problem.upper - inset)
+
+    def residuals(theta: Array) -> Array:
+        evaluated()
+        return problem.residuals(theta)
+
     with np.errstate(all="ignore"):
-        if not np.all(np.isfinite(problem.residuals(start))):
+        if not np.all(np.isfinite(residuals(start))):
             return None
         try:
             return optimize.least_squares(
-                problem.residuals, start, jac=problem.slopes,
+                residuals, start, jac=problem.slopes,
                 bounds=(problem.lower, problem.upper), x_scale="jac", loss=loss, f_scale=noise,
                 ftol=tolerance, xtol=tolerance, gtol=1e-12, max_nfev=steps,
             )  # fmt: skip

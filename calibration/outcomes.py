@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from calibration import fit_progress
 from calibration.conductance import conductance_constant, fit_conductance, read_heating_record
 from calibration.fit_core import FitResult
 from calibration.friction import compare_laws, fit_friction, read_friction
@@ -246,6 +247,7 @@ def _partition_points(found: PartitionFit) -> pd.DataFrame:
 
 def _with_intervals(result: FitResult, kind: str) -> FitResult:
     """The result with its 95 % intervals in the metadata, which the parameter file repeats."""
+    fit_progress.stage(f"{kind} intervals")
     found = {
         "student": lambda: result.interval(),
         "profile": lambda: {name: result.profile(name) for name in result.names},
@@ -261,6 +263,7 @@ def _outcome(result: FitResult, text: str, files: Mapping[str, bytes]) -> Outcom
 
 
 def _files(result: FitResult, points: pd.DataFrame) -> dict[str, bytes]:
+    fit_progress.stage("tables and pictures")
     return {PARAMETERS_FILE: parameter_text(result).encode(), "fit.csv": _csv(points)}
 
 

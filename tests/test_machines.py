@@ -203,7 +203,8 @@ def test_terminal_without_the_letters_of_a_path_gets_escapes(folder):
 LITTLE_MEMORY = """
 import resource, sys
 import treadfem
-show, steps = treadfem._Progress.__call__, []
+from fem import run_progress
+show, steps = run_progress.RunProgress.__call__, []
 
 def limited(self, state):
     steps.append(state)
@@ -213,7 +214,7 @@ def limited(self, state):
         resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
     show(self, state)
 
-treadfem._Progress.__call__ = limited
+run_progress.RunProgress.__call__ = limited
 sys.exit(treadfem.main(sys.argv[1:]))
 """
 FINE = ("--set", "block.mesh=fine", "--set", "loading.distance_mm=0.5", "--set", "output.vtu=false")

@@ -1,0 +1,208 @@
+"""The commands that make the paper's figures, tables and claims: arguments and what they do.
+
+What draws or simulates is imported by the command that needs it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from fem.case_errors import CaseError
+from fem.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
+from fem.output_folder import check_output_file, chosen_output, output_folder
+
+#: Figures and tables share a folder, since some are made of the same runs.
+_PAPER = "results/figures"
+
+
+def add_arguments(commands: Any) -> None:
+    """Add `figure`, `table`, `claims`, `sensitivity` and `report` to the sub-commands."""
+    for add in (_add_figure, _add_table, _add_claims, _add_sensitivity, _add_report):
+        add(commands)
+
+
+def _add_figure(commands: Any) -> None:
+    parser = _add_numbered(commands, "figure")
+    parser.add_argument(
+        "--measured", metavar="FILE.csv", help="measurements to draw into figures 11 and 12"
+    )
+    parser.set_defaults(command=partial(_in_folder, _figure))
+
+
+def _add_table(commands: Any) -> None:
+    parser = _add_numbered(commands, "table")
+    parser.set_defaults(command=partial(_in_folder, _table))
+
+
+def _in_folder(command: Callable[[argparse.Namespace], int], arguments: argparse.Namespace) -> int:
+    """Execute a command while its folder is nobody else's."""
+    folder = chosen_output(arguments.output, Path(_PAPER))
+    with output_folder(folder, folders=("made", "runs")):
+        return command(arguments)
+
+
+def _add_numbered(commands: Any, what: str) -> argparse.ArgumentParser:
+    parser: argparse.ArgumentParser = commands.add_parser(
+        what, help=f"make a {what} of the paper", description=f"Make a {what} of the paper."
+    )
+    parser.add_argument("number", metavar="N|all", help=f"number of the {what}, or all")
+    _add_folder(parser, f"{what}s")
+    return parser
+
+
+def _add_folder(parser: argparse.ArgumentParser, what: str) -> None:
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        default=_PAPER,
+        help=f"folder of the {what} (default: {_PAPER})",
+    )
+    parser.add_argument("--again", action="store_true", help="make what is up to date, too")
+
+
+def _figure(arguments: argparse.Namespace) -> int:
+    from calibration.errors import DataError
+    from validation.measured.measurements import read_measurements
+    from validation.paper.figures import FIGURES, MEASURABLE, make_figure
+
+    numbers = _numbers("figure", arguments, list(FIGURES))
+    measured, inputs = None, []
+    if arguments.measured is not None:
+        try:
+            measured, inputs = read_measurements(arguments.measured), [arguments.measured]
+            say_of(arguments.measured, measured.notes, measured.unusual)
+        except DataError as error:
+            print(f"treadfem: {error}", file=sys.stderr)
+            return BAD_INPUT
+        if not set(numbers) & set(MEASURABLE):
+            raise CaseError(
+                file="figure",
+                key="--measured",
+                found=f"figure {arguments.number}",
+                expected="a figure that shows measurements: 11, 12 or all",
+            )
+    for number in numbers:
+        make = partial(make_figure, number, arguments.output, measured)
+        own_inputs = inputs if number in MEASURABLE else []
+        if not _made(arguments, f"fig{number}", make, own_inputs):
+            return NOT_CONVERGED
+    if arguments.number == "all":
+        print("figures 1 and 5 of the paper are a sketch and photographs")
+    return DONE
+
+
+def _table(arguments: argparse.Namespace) -> int:
+    from validation.paper.tables import TABLES, make_table
+
+    for number in _numbers("table", arguments, list(TABLES)):
+        make = partial(make_table, number, arguments.output)
+        if not _made(arguments, f"table{number}", make, show=True):
+            return NOT_CONVERGED
+    return DONE
+
+
+def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list[int]:
+    """Numbers that are asked for, once it is clear that they can be made."""
+    if arguments.number == "all":
+        return sorted(known)
+    if arguments.number not in map(str, known):
+        expected = f"one of {', '.join(map(str, sorted(known)))} or all"
+        raise CaseError(file=what, key="N", found=repr(arguments.number), expected=expected)
+    return [int(arguments.number)]
+
+
+def _add_claims(commands: Any) -> None:
+    text = "Check the paper's statements against the simulation, one by one."
+    parser = commands.add_parser("claims", help="check the paper's claims", description=text)
+    _add_folder(parser, "ledger and its runs")
+    parser.set_defaults(command=partial(_in_folder, _claims))
+
+
+def _claims(arguments: argparse.Namespace) -> int:
+    from validation.claims.write import write_claims
+
+    def make() -> Path:
+        _, text = write_claims(arguments.output)
+        return text
+
+    return DONE if _made(arguments, "claims", make, show=True) else NOT_CONVERGED
+
+
+def _add_sensitivity(commands: Any) -> None:
+    text = "Vary what the paper leaves open, one parameter at a time."
+    parser = commands.add_parser("sensitivity", help="vary what is left open", description=text)
+    _add_folder(parser, "table, picture and runs")
+    parser.set_defaults(command=partial(_in_folder, _sensitivity))
+
+
+def _sensitivity(arguments: argparse.Namespace) -> int:
+    from validation.sensitivity.write import write_sensitivity
+
+    make = partial(write_sensitivity, arguments.output)
+    return DONE if _made(arguments, "sensitivity", make, show=True) else NOT_CONVERGED
+
+
+def _made(
+    arguments: argparse.Namespace,
+    name: str,
+    make: Callable[[], Path],
+    inputs: Sequence[str] = (),
+    *,
+    show: bool = False,
+) -> bool:
+    """Make something unless it is up to date, and say so; False if one of its runs failed."""
+    from validation.paper.kept import kept
+    from validation.sweeps.study_runs import StudyError
+
+    directory = Path(arguments.output)
+    try:
+        made = kept(name, directory, make, inputs, again=arguments.again)
+    except StudyError as error:
+        print(f"treadfem: {name}: {error}", file=sys.stderr)
+        return False
+    if show:
+        print(made.path.read_text(encoding="utf-8"))
+    print(made.path if made.again else f"{made.path} (up to date)", flush=True)
+    return True
+
+
+def _add_report(commands: Any) -> None:
+    text = "Put all figures, tables and claims that are made into one HTML page."
+    parser = commands.add_parser("report", help="one page with everything", description=text)
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE.html",
+        default="results/report.html",
+        help="the page (default: results/report.html)",
+    )
+    parser.add_argument(
+        "--figures",
+        metavar="DIR",
+        default=_PAPER,
+        help=f"folder of figures, tables, claims and sensitivity (default: {_PAPER})",
+    )
+    parser.set_defaults(command=_report)
+
+
+def _report(arguments: argparse.Namespace) -> int:
+    from validation.report.write import write_report
+
+    figures = Path(arguments.figures)
+    path = chosen_output(arguments.output, Path("results/report.html"))
+    if not figures.is_dir():
+        raise CaseError(
+            file=str(figures),
+            key="--figures",
+            found="no such folder",
+            expected="what make figures made",
+        )
+    check_output_file(path)
+    print(write_report(figures, path))
+    return DONE
