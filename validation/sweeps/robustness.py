@@ -36,6 +36,8 @@ FOUND = (
     "regularisation_share",
     "storage_share",
     "regularisation_share_with_onset",
+    "snap_share",
+    "sliding_regime",
     "friction_lag_error",
     "largest_self_penetration",
     "min_J",
