@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from scipy.optimize import brentq
 
 from fem.case import Case
 
+#: Longest sliding step over the distance slid. The edge rolls under at a few millimetres; in longer
+#: steps the heat of the block's friction on itself would come in one go.
+ONSET_SHARE = 0.2
 #: Duration of the pressing phase [s].
 PRESSING_TIME = 0.05
 #: Distance that pressing counts as, where damping is stated by a distance [mm].
@@ -56,6 +60,9 @@ class Phase:
         ``target(start, stop) -> Target`` of a step between two coordinates.
     slides : bool
         Whether the coordinate is the sliding distance [mm].
+    onset_share : float
+        Longest step relative to the coordinate reached, beyond the first one: what happens in an
+        onset is resolved alike on all its scales.
     """
 
     name: str
@@ -65,6 +72,11 @@ class Phase:
     step_min: float
     target: Callable[[float, float], Target]
     slides: bool
+    onset_share: float = inf
+
+    def longest(self, at: float) -> float:
+        """Longest step from a coordinate on."""
+        return min(self.step_max, max(self.step_initial, self.onset_share * at))
 
 
 def sliding_time(distance: float, speed: float) -> float:
@@ -122,6 +134,6 @@ def programme(case: Case) -> tuple[Phase, Phase]:
         Phase(
             name="sliding", end=loading.distance_mm, step_initial=solver.step_mm_initial * scale,
             step_max=solver.step_mm_max * scale, step_min=solver.step_mm_min, target=sliding,
-            slides=True,
+            slides=True, onset_share=ONSET_SHARE * scale,
         ),
     )  # fmt: skip

@@ -187,7 +187,7 @@ class _Run:
             plan, at = self.point.plan, self.point.at
         snaps = False
         while at < phase.end:
-            length = landed(at, plan.step, phase.end)
+            length = landed(at, min(plan.step, phase.longest(at)), phase.end)
             stop = phase.end if length == phase.end - at else at + length
             attempt = self.model.advance(self.state, phase.target(at, stop), plan.help)
             self.iterations += attempt.iterations

@@ -67,3 +67,11 @@ def test_steps_scale_scales_all_steps():
 def test_step_limits_come_from_the_solver_section():
     _, sliding = programme(case_of(step_mm_initial=0.03, step_mm_max=0.7, step_mm_min=2e-5))
     assert (sliding.step_initial, sliding.step_max, sliding.step_min) == (0.03, 0.7, 2e-5)
+
+
+def test_steps_of_an_onset_are_resolved_relative_to_the_distance_slid():
+    pressing, sliding = programme(case_of(distance=100.0))
+    assert sliding.longest(0.0) == sliding.step_initial
+    assert sliding.longest(5.0) == pytest.approx(sliding.onset_share * 5.0)
+    assert sliding.longest(80.0) == sliding.step_max
+    assert pressing.longest(0.5) == pressing.step_max
