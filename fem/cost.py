@@ -21,7 +21,7 @@ _REFERENCE = 2880
 _ITERATIONS = 5.0
 _ITERATION_S, _HEAT_STEP_S = 0.019, 0.002
 #: Steps of pressing and of the onset of sliding, which are shorter than the longest step.
-_SHORT_STEPS = 15
+_SHORT_STEPS = 35
 #: The program itself, the factors per element, a snapshot per element, a step of the history [GB].
 _PROGRAM_GB, _ELEMENT_GB, _SNAPSHOT_GB, _STEP_GB = 0.25, 4e-5, 2e-7, 3e-6
 #: Beyond a month nobody waits for a run.
