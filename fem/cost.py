@@ -69,7 +69,7 @@ def estimated_cost(case: Case) -> Cost:
     >>> from fem import Case
     >>> loading = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300, "distance_mm": 120.0}
     >>> str(estimated_cost(Case.from_dict({"loading": loading})))
-    'about 2880 elements, 240 steps, 8 s on one core, 0.4 GB'
+    'about 2880 elements, 240 steps, 10 s on one core, 0.4 GB'
     """
     solver, mesh = case.solver, case.block.mesh
     if isinstance(mesh, MeshSpec):
