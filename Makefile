@@ -11,7 +11,7 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
@@ -26,6 +26,7 @@ help:
 	@echo "make sensitivity  what the paper leaves open, one parameter at a time"
 	@echo "make report     all of that in one HTML page, $(RESULTS)/report.html"
 	@echo "make robustness  108 cases from easy to extreme; rewrites validation/robustness.csv"
+	@echo "make convergence  to the limit of damping and steps; rewrites its tables and the README's block"
 	@echo "make clean      remove results and caches (make distclean: .venv too)"
 
 $(READY): setup.cfg pyproject.toml constraints.txt
@@ -94,6 +95,12 @@ report: figures claims sensitivity
 robustness: $(READY)
 	$(BIN)/treadfem sweep validation/studies/robustness.toml -o $(RESULTS)/robustness --resume
 	$(BIN)/python -m validation.sweeps.robustness $(RESULTS)/robustness/summary.csv
+
+# A case that does not converge (exit code 3) is a row of the tables too.
+convergence: $(READY)
+	for study in convergence onset; do \
+	  $(BIN)/treadfem sweep validation/studies/$$study.toml -o $(RESULTS)/$$study --resume || test $$? = 3 || exit; done
+	$(BIN)/python -m validation.convergence.write $(RESULTS)/convergence $(RESULTS)/onset
 
 clean:
 	rm -rf $(RESULTS) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks

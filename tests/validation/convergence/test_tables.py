@@ -1,0 +1,119 @@
+"""The committed tables of the studies to the limit, and the README's block that is made of them."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from validation.convergence.onset import SweptRun
+from validation.convergence.table import (
+    CONVERGENCE,
+    FORCES,
+    FOUND,
+    ONSET,
+    PLATEN,
+    convergence_table,
+    onset_table,
+)
+from validation.convergence.text import convergence_text, onset_differences, onset_text
+from validation.convergence.write import BEGIN, END, README, block, with_block
+from validation.sweeps.study import STUDIES, StudyCase, read_study
+
+VARIED = {
+    CONVERGENCE: ("convergence.toml", convergence_table),
+    ONSET: ("onset.toml", onset_table),
+}
+
+
+STOPPED = ["A_T_K_mm", "status", "reason"]
+
+
+def made_up(case: StudyCase, **summary: object) -> SweptRun:
+    history = pd.DataFrame({
+        "sliding_distance_mm": [0.0, 3.0],
+        "friction_force_N_per_mm": [0.0, 3.0],
+        "platen_displacement_mm": [0.25, 0.3],
+        "viscous_dissipation_mJ_per_mm": [0.0, 0.3],
+    })  # fmt: skip
+    words = {"status": "ok", "sliding_regime": "steady", "program_version": "0.1.0+0123"}
+    return SweptRun(
+        study_case=case,
+        history=history,
+        summary={**dict.fromkeys(FOUND, 1.0 / 3.0), **words, **summary},
+    )
+
+
+def made_up_table(study: str, make, changes=None) -> pd.DataFrame:
+    cases = read_study(STUDIES / study)
+    return make([made_up(case, **(changes or {}).get(k, {})) for k, case in enumerate(cases)])
+
+
+@pytest.mark.parametrize("path", VARIED, ids=lambda path: path.name)
+def test_the_committed_table_has_every_run_of_its_study_in_order(path):
+    study, make = VARIED[path]
+    expected, found = made_up_table(study, make), pd.read_csv(path)
+    assert found.columns.tolist() == expected.columns.tolist()
+    varied = expected.columns[: expected.columns.get_loc("status")]
+    pd.testing.assert_frame_equal(found[varied], expected[varied], check_dtype=False)
+    assert found["program_version"].nunique() == 1
+
+
+def test_the_readme_says_what_the_command_makes_of_the_tables():
+    readme = README.read_text(encoding="utf-8")
+    assert with_block(readme, block()) == readme
+
+
+def test_a_readme_without_its_markers_is_refused():
+    with pytest.raises(ValueError, match="once each"):
+        with_block(f"{BEGIN}\n", "text")
+    assert with_block(f"a\n{BEGIN}\nold\n{END}\nb", "new\n") == f"a\n{BEGIN}\nnew\n{END}\nb"
+
+
+def test_both_distances_of_the_damping_are_scaled_alike():
+    cases = read_study(STUDIES / "convergence.toml")
+    lone = {"solver.edge_viscous_distance_mm": 0.5}
+    case = StudyCase(name="lone", overrides=lone, case=cases[0].case.with_overrides(lone))
+    with pytest.raises(ValueError, match=r"block times 1, of its edge times 0\.1"):
+        convergence_table([made_up(case)])
+
+
+def test_scatter_is_half_the_range_and_leaves_out_what_stopped():
+    table = made_up_table("convergence.toml", convergence_table)
+    coarse = (table["mesh"] == "coarse") & (table["memory_mm"] == 0.3)
+    table.loc[:, "A_T_K_mm"] = 100.0
+    table.loc[coarse & (table["steps_scale"] == 0.5), "A_T_K_mm"] = 104.0
+    table.loc[coarse & (table["damping"] == 3.0), "A_T_K_mm"] = 50.0
+    table.loc[coarse & (table["damping"] == 0.1), STOPPED] = [7.0, "not converged", "folded"]
+    text = convergence_text(table)
+    assert "100.0 to 104.0 (±2.0 %)" in text
+    assert "50.0 to 104.0 (±35.1 %)" in text
+    assert "7.0 to" not in text
+    assert "26 of 27 runs slide steadily to the end" in text
+    assert "coarse mesh, damping / 10, steps × 1, memory 0.3 mm: folded" in text
+
+
+def test_the_onset_is_compared_with_the_least_damping_in_the_shortest_steps():
+    table = made_up_table("onset.toml", onset_table)
+    case = slice(0, 3)  # default, short steps, limit, limit in half its steps
+    table.loc[case, FORCES[2]] = [1.0, 1.1, 1.2, 1.25]
+    table.loc[case, "full_slip_N_per_mm"] = 5.0
+    table.loc[case, PLATEN] = [0.26, 0.25, 0.25, 0.25]
+    first = onset_differences(table).iloc[0]
+    assert first[["default", "short_steps", "limit"]].tolist() == pytest.approx([5.0, 3.0, 1.0])
+    assert first["default_at_mm"] == 0.9852
+    assert first["default_damping"] == pytest.approx(100 * 0.1 * 0.9852 / 3.0 / 5.0, rel=1e-3)
+    assert first["platen"] == pytest.approx(4.0)
+    text = onset_text(table)
+    assert "Within 2 % of full slip: 9 of 10 with the defaults" in text
+    assert "Beyond: introductory example" in text
+
+
+def test_cases_of_the_onset_are_named_by_what_sets_them_apart():
+    names = onset_differences(made_up_table("onset.toml", onset_table))["case"].tolist()
+    assert len(set(names)) == len(names) == 10
+    assert names[0] == "introductory example"
+    assert {"Coulomb, 0.6", "6 mm high", "50 mm/s", "yeoh-bars-series-2"} <= set(names)
+
+
+def test_the_committed_limits_are_finite():
+    for path in VARIED:
+        assert np.isfinite(pd.read_csv(path)[[*FORCES, PLATEN]].to_numpy()).all()

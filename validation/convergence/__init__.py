@@ -1,0 +1,1 @@
+"""To the limit: what the results depend on that they should not depend on."""

@@ -1,0 +1,236 @@
+"""The studies to the limit in Markdown, from their committed tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pandas as pd
+
+from validation.convergence.onset import ONSET_MM
+from validation.convergence.table import DAMPING_FORCES, FORCES, PLATEN
+
+#: How far the onset may be off its limit, of the force of full slip and of the platen [%].
+ONSET_PERCENT = 2.0
+_DEFAULT = {"damping": 1.0, "steps_scale": 1.0, "memory_mm": 0.3}
+_QUANTITIES = {
+    "T_max_C": ("T_max", ".2f", "°C"),
+    "A_T_K_mm": ("A_T", ".1f", "K mm"),
+    "contact_length_mm": ("contact length", ".2f", "mm"),
+    "friction_force_N_per_mm": ("friction force", ".3f", "N/mm"),
+}
+_CASE = ("compound", "law", "mu", "height_mm", "velocity_mm_per_s")
+
+
+# -- the introductory example ----------------------------------------------------------------------
+
+
+def convergence_text(table: pd.DataFrame) -> str:
+    """Table of each mesh at its default, its limit and in short steps, and what scatters."""
+    least, shortest = table["damping"].min(), table["steps_scale"].min()
+    shown = {
+        "default": {},
+        f"damping {_factor(least)}": {"damping": least},
+        f"steps {_factor(shortest)}": {"steps_scale": shortest},
+        **{f"memory {m:g} mm": {"memory_mm": m} for m in _others(table, "memory_mm")},
+    }
+    heads = [f"{name} [{unit}]" for name, _, unit in _QUANTITIES.values()]
+    rows = [
+        [mesh, name, *_cells(_varied(table, mesh, **change))]
+        for mesh in table["mesh"].unique()
+        for name, change in shown.items()
+    ]
+    columns = [
+        "mesh",
+        "run",
+        f"force at {', '.join(f'{mm:g}' for mm in ONSET_MM)} mm [N/mm]",
+        "platen [mm]",
+        *heads,
+        "regularisation, snaps [%]",
+        "iterations (rejected steps)",
+    ]
+    return "\n\n".join([_markdown(columns, rows), *_scatter(table)])
+
+
+def _cells(run: pd.Series) -> list[str]:
+    return [
+        ", ".join(f"{run[force]:.3f}" for force in FORCES),
+        f"{run[PLATEN]:.4f}",
+        *(f"{run[key]:{form}}" for key, (_, form, _) in _QUANTITIES.items()),
+        f"{100 * run['regularisation_share_with_onset']:.2f}, {100 * run['snap_share']:.2f}",
+        f"{run['newton_iterations']} ({run['rejected_steps']})"
+        + ("" if run["status"] == "ok" else f", {run['status']}"),
+    ]
+
+
+def _scatter(table: pd.DataFrame) -> list[str]:
+    """What the results of each mesh scatter by, between step histories and over all damping."""
+    reached = table[(table["status"] == "ok") & (table["sliding_regime"] == "steady")]
+    plain = reached[reached["memory_mm"] == _DEFAULT["memory_mm"]]
+    histories = plain[plain["damping"] == _DEFAULT["damping"]]
+    steps = ", ".join(_factor(s) for s in sorted(plain["steps_scale"].unique(), reverse=True))
+    damping = ", ".join(_factor(d) for d in sorted(plain["damping"].unique(), reverse=True))
+    return [
+        f"Between step histories that are equally good (steps {steps}) the results lie in",
+        _ranges(histories),
+        f"and with these and damping {damping} in",
+        _ranges(plain),
+        _exceptions(table),
+    ]
+
+
+def _ranges(runs: pd.DataFrame) -> str:
+    rows = []
+    for mesh, of_mesh in runs.groupby("mesh", sort=False):
+        cells = [str(mesh), str(len(of_mesh))]
+        for key, (_, form, _) in _QUANTITIES.items():
+            low, high = of_mesh[key].min(), of_mesh[key].max()
+            half = "" if key.endswith("_C") else f" (±{100 * (high - low) / (high + low):.1f} %)"
+            cells.append(f"{low:{form}} to {high:{form}}{half}")
+        rows.append(cells)
+    heads = [f"{name} [{unit}]" for name, _, unit in _QUANTITIES.values()]
+    return _markdown(["mesh", "runs", *heads], rows)
+
+
+def _exceptions(table: pd.DataFrame) -> str:
+    """How many runs slid steadily to the end, and which did not."""
+    others = table[(table["status"] != "ok") | (table["sliding_regime"] != "steady")]
+    words = f"{len(table) - len(others)} of {len(table)} runs slide steadily to the end."
+    if others.empty:
+        return words
+    named = [
+        f"{run['mesh']} mesh, damping {_factor(run['damping'])}, steps "
+        f"{_factor(run['steps_scale'])}, memory {run['memory_mm']:g} mm: "
+        f"{run['sliding_regime'] if run['status'] == 'ok' else run['reason']}"
+        for _, run in others.iterrows()
+    ]
+    return f"{words} The others are left out of the ranges: {'; '.join(named)}."
+
+
+def _varied(table: pd.DataFrame, mesh: str, **change: float) -> pd.Series:
+    """The run of a mesh that differs from the defaults in this only."""
+    wanted = {"mesh": mesh, **_DEFAULT, **change}
+    chosen = table[np.logical_and.reduce([table[key] == value for key, value in wanted.items()])]
+    if len(chosen) != 1:
+        raise ValueError(f"{len(chosen)} runs with {wanted}; expected one")
+    return chosen.iloc[0]
+
+
+def _others(table: pd.DataFrame, key: str) -> list[float]:
+    return sorted(set(table[key]) - {_DEFAULT[key]})
+
+
+# -- the onset of other cases ----------------------------------------------------------------------
+
+
+def onset_text(table: pd.DataFrame) -> str:
+    """Largest difference of each case's onset from its limit, and which are too large."""
+    found = onset_differences(table)
+    rows = [
+        [
+            run["case"],
+            *(
+                f"{run[key]:.1f} % at {run[f'{key}_at_mm']:g} mm ({run[f'{key}_damping']:.1f} %)"
+                for key in _LOOKS
+            ),
+            f"{run['platen']:.2f} %",
+        ]
+        for _, run in found.iterrows()
+    ]
+    columns = [
+        "case",
+        "default",
+        f"steps of at most {_second(table, 'step_mm_max'):g} mm",
+        "the limit in these steps",
+        "platen",
+    ]
+    return "\n\n".join([_markdown(columns, rows), _verdict(found)])
+
+
+_LOOKS = ("default", "short_steps", "limit")
+
+
+def onset_differences(table: pd.DataFrame) -> pd.DataFrame:
+    """How far each case is off its limit, in per cent of full slip (the platen: of itself).
+
+    Parameters
+    ----------
+    table : DataFrame
+        The committed table of the onset. The limit is the run with the least damping and, of these,
+        the shortest steps.
+
+    Returns
+    -------
+    DataFrame
+        A row per case: ``case``; for ``default``, ``short_steps`` (those of the limit, or twice
+        these, with default damping) and ``limit`` (the least damping in twice the shortest steps)
+        the largest difference, with ``_at_mm`` where it is, and with ``_damping`` the force of the
+        damping there; ``platen``.
+    """
+    rows = []
+    for case, runs in table.groupby(list(_CASE), sort=False, dropna=False):
+        order = runs.sort_values(["damping", "step_mm_max"])
+        limit, coarser, short, default = (order.iloc[k] for k in range(4))
+        row: dict[str, object] = {"case": _named(dict(zip(_CASE, case, strict=True)), table)}
+        for look, run in zip(_LOOKS, (default, short, coarser), strict=True):
+            off = 100 * np.abs([run[f] - limit[f] for f in FORCES]) / run["full_slip_N_per_mm"]
+            worst = int(off.argmax())
+            row |= {look: off[worst], f"{look}_at_mm": ONSET_MM[worst]}
+            row[f"{look}_damping"] = 100 * run[DAMPING_FORCES[worst]] / run["full_slip_N_per_mm"]
+        row["platen"] = 100 * abs(default[PLATEN] / limit[PLATEN] - 1.0)
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _named(case: dict[str, object], table: pd.DataFrame) -> str:
+    """What sets a case apart from the first one of the table."""
+    first = table.iloc[0]
+    words = []
+    if case["compound"] != first["compound"]:
+        words.append(str(case["compound"]))
+    if case["law"] != first["law"]:
+        words.append(f"{str(case['law']).capitalize()}, {case['mu']:g}")
+    if case["height_mm"] != first["height_mm"]:
+        words.append(f"{case['height_mm']:g} mm high")
+    if case["velocity_mm_per_s"] != first["velocity_mm_per_s"]:
+        words.append(f"{case['velocity_mm_per_s']:g} mm/s")
+    return ", ".join(words) or "introductory example"
+
+
+def _second(table: pd.DataFrame, key: str) -> float:
+    return float(sorted(table[key].unique())[1])
+
+
+def _verdict(found: pd.DataFrame) -> str:
+    parts = [
+        f"Within {ONSET_PERCENT:g} % of full slip: {_counted(found, 'default')} with the defaults, "
+        f"{_counted(found, 'short_steps')} in short steps; the platen "
+        f"{_counted(found, 'platen')}."
+    ]
+    beyond = found[found["default"] > ONSET_PERCENT]
+    if len(beyond):
+        parts.append(f"Beyond: {'; '.join(beyond['case'])}.")
+    vague = found[found["limit"] > ONSET_PERCENT / 2]
+    if len(vague):
+        parts.append(
+            f"Between its two step lengths the limit itself differs by more than "
+            f"{ONSET_PERCENT / 2:g} % for: {'; '.join(vague['case'])}."
+        )
+    return " ".join(parts)
+
+
+def _counted(found: pd.DataFrame, key: str) -> str:
+    return f"{(found[key] <= ONSET_PERCENT).sum()} of {len(found)}"
+
+
+# -- Markdown --------------------------------------------------------------------------------------
+
+
+def _factor(factor: float) -> str:
+    """E.g. ``× 3``, ``/ 100``; the default is ``× 1``."""
+    return f"× {factor:g}" if factor >= 1.0 else f"/ {1.0 / factor:.3g}"
+
+
+def _markdown(columns: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    lines = [columns, ["---" for _ in columns], *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)

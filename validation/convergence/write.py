@@ -1,0 +1,72 @@
+"""Tables of the studies to the limit, and what the README says of them.
+
+``python -m validation.convergence.write SWEEP_OF_CONVERGENCE SWEEP_OF_ONSET`` writes
+``validation/convergence.csv`` and ``validation/onset.csv`` and renews the README's block; without
+folders it renews the block from the tables that are there.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+import pandas as pd
+
+from fem.atomic_files import write_text
+from validation.convergence.onset import swept_runs
+from validation.convergence.table import CONVERGENCE, ONSET, convergence_table, onset_table
+from validation.convergence.text import convergence_text, onset_text
+from validation.sweeps.study import STUDIES
+
+README = Path(__file__).parents[2] / "README.md"
+BEGIN, END = "<!-- convergence:begin -->", "<!-- convergence:end -->"
+
+
+def write_tables(convergence: Path, onset: Path) -> None:
+    """Write both committed tables from the folders of their sweeps."""
+    tables = {
+        CONVERGENCE: convergence_table(swept_runs(STUDIES / "convergence.toml", convergence)),
+        ONSET: onset_table(swept_runs(STUDIES / "onset.toml", onset)),
+    }
+    for path, table in tables.items():
+        write_text(path, table.to_csv(index=False, lineterminator="\n"))
+
+
+def block() -> str:
+    """What stands between the README's markers, from the committed tables."""
+    return (
+        "The introductory example to its limit "
+        "([validation/convergence.csv](validation/convergence.csv)):\n\n"
+        f"{convergence_text(pd.read_csv(CONVERGENCE))}\n\n"
+        "The onset of other cases against its limit: the largest difference of the force at the "
+        "same distances\nin per cent of the force of full slip, and in brackets the force that the "
+        "damping itself takes there\n([validation/onset.csv](validation/onset.csv)):\n\n"
+        f"{onset_text(pd.read_csv(ONSET))}\n"
+    )
+
+
+def with_block(readme: str, text: str) -> str:
+    """The README with another text between its markers.
+
+    Raises
+    ------
+    ValueError
+        If the markers are not there once.
+    """
+    parts = re.split(f"({BEGIN}\n|{END})", readme)
+    if len(parts) != 5:
+        raise ValueError(f"README.md has to have {BEGIN} and {END} once each")
+    return "".join([*parts[:2], text, *parts[3:]])
+
+
+def main(folders: list[str]) -> None:
+    """Renew the tables, if there are folders, and the README."""
+    if folders:
+        write_tables(*map(Path, folders))
+    write_text(README, with_block(README.read_text(encoding="utf-8"), block()))
+    print(f"{README}: renewed from {CONVERGENCE.name} and {ONSET.name}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
