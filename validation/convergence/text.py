@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 
 import numpy as np
@@ -49,7 +50,7 @@ def convergence_text(table: pd.DataFrame) -> str:
         "regularisation, snaps [%]",
         "iterations (rejected steps)",
     ]
-    return "\n\n".join([_markdown(columns, rows), *_scatter(table)])
+    return "\n\n".join([_markdown(columns, rows), *_differences(table), *_scatter(table)])
 
 
 def _cells(run: pd.Series) -> list[str]:
@@ -61,6 +62,30 @@ def _cells(run: pd.Series) -> list[str]:
         f"{run['newton_iterations']} ({run['rejected_steps']})"
         + ("" if run["status"] == "ok" else f", {run['status']}"),
     ]
+
+
+def _differences(table: pd.DataFrame) -> list[str]:
+    """What meshes and damping change, each from one run to another."""
+    meshes, least = list(table["mesh"].unique()), table["damping"].min()
+    near = [d for d in sorted(table["damping"].unique()) if 0.2 < d < 5.0 and d != 1.0]
+    pairs = [(f"{m}: damping {_factor(least)}", m, {"damping": least}, m) for m in meshes]
+    pairs += [(f"{m}: damping {_factor(d)}", m, {"damping": d}, m) for m in meshes for d in near]
+    pairs += [
+        (f"{before} to {after} mesh", after, {}, before)
+        for before, after in itertools.pairwise(meshes)
+    ]
+    rows = []
+    for name, mesh, change, base in pairs:
+        run, default = _varied(table, mesh, **change), _varied(table, base)
+        if run["status"] == default["status"] == "ok":
+            rows.append([name, *(_difference(key, run[key], default[key]) for key in _QUANTITIES)])
+    heads = [name for name, _, _ in _QUANTITIES.values()]
+    return ["From the defaults to", _markdown(["change", *heads], rows)]
+
+
+def _difference(key: str, value: float, base: float) -> str:
+    """Temperatures in K, the rest in per cent."""
+    return f"{value - base:+.2f} K" if key.endswith("_C") else f"{100 * (value / base - 1):+.1f} %"
 
 
 def _scatter(table: pd.DataFrame) -> list[str]:

@@ -76,6 +76,20 @@ def test_both_distances_of_the_damping_are_scaled_alike():
         convergence_table([made_up(case)])
 
 
+def test_differences_are_from_the_default_of_the_mesh_and_between_meshes():
+    table = made_up_table("convergence.toml", convergence_table)
+    table[["T_max_C", "A_T_K_mm"]] = [45.0, 100.0]
+    fine = table["mesh"] == "fine"
+    table.loc[fine, "A_T_K_mm"] = 110.0
+    table.loc[fine & (table["damping"] == 0.01), ["T_max_C", "A_T_K_mm"]] = [44.5, 99.0]
+    table.loc[fine & (table["damping"] == 3.0), "status"] = "not converged"
+    text = convergence_text(table)
+    assert "| fine: damping / 100 | -0.50 K | -10.0 % | +0.0 % | +0.0 % |" in text
+    assert "| default to fine mesh | +0.00 K | +10.0 % |" in text
+    assert "| coarse: damping × 3 |" in text
+    assert "| fine: damping × 3 |" not in text
+
+
 def test_scatter_is_half_the_range_and_leaves_out_what_stopped():
     table = made_up_table("convergence.toml", convergence_table)
     coarse = (table["mesh"] == "coarse") & (table["memory_mm"] == 0.3)
@@ -117,3 +131,14 @@ def test_cases_of_the_onset_are_named_by_what_sets_them_apart():
 def test_the_committed_limits_are_finite():
     for path in VARIED:
         assert np.isfinite(pd.read_csv(path)[[*FORCES, PLATEN]].to_numpy()).all()
+
+
+def test_the_onset_of_the_introductory_example_is_that_of_its_limit():
+    """To 2 % of full slip: on all meshes before the edge rolls under, on the default one also then."""
+    table, full_slip = pd.read_csv(CONVERGENCE), pd.read_csv(ONSET)["full_slip_N_per_mm"].iloc[0]
+    for mesh, runs in table[table["steps_scale"] == 1.0].groupby("mesh"):
+        limit = runs[runs["damping"] == runs["damping"].min()].iloc[0]
+        off = (runs[[*FORCES]] - limit[[*FORCES]]).astype(float).abs() / full_slip
+        assert off[[*FORCES[:3]]].to_numpy().max() < 0.02
+        if mesh == "default":
+            assert off.to_numpy().max() < 0.02
