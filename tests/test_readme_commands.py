@@ -38,7 +38,7 @@ SHORT = {
 }
 SHORT_STUDY = {
     'base = "introductory"': 'base = "my_case.toml"',
-    '"loading.distance_mm" = [10.0]': '"loading.distance_mm" = [0.5]',
+    '"loading.distance_mm" = [10.0]': '"loading.distance_mm" = [3.0]',
     '"block.mesh" = ["coarse"]\n': "",
 }
 #: Files that a command writes, by its first word, where it has no -o.

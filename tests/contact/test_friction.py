@@ -101,6 +101,43 @@ def test_without_wlf_temperature_does_not_matter():
     assert not np.any(result.dmu_dT)
 
 
+MEMORY = ThermalFriction(law=HuemerFriction(), memory_mm=0.3)
+BEFORE = np.array([0.0, 300.0, 20.0, 310.0])
+
+
+def test_without_memory_the_coefficient_knows_the_speed_at_once():
+    at_once = ThermalFriction(law=HuemerFriction(), memory_mm=0.0)
+    np.testing.assert_array_equal(at_once.remembered(BEFORE, V, 0.01), V)
+    nearly = ThermalFriction(law=HuemerFriction(), memory_mm=1e-6)
+    np.testing.assert_allclose(nearly.remembered(BEFORE, V, 0.01), V, rtol=1e-12)
+
+
+@pytest.mark.parametrize("slip", [30.0, -30.0])
+def test_after_a_slip_far_beyond_the_memory_the_old_speed_is_forgotten(slip):
+    np.testing.assert_allclose(MEMORY.remembered(BEFORE, V, slip), V, rtol=1e-12)
+
+
+def test_without_slip_the_old_speed_is_remembered():
+    np.testing.assert_array_equal(MEMORY.remembered(BEFORE, V, 0.0), BEFORE)
+
+
+def test_a_slip_of_the_memory_leaves_a_share_of_one_over_e():
+    left = (MEMORY.remembered(BEFORE, V, 0.3) - V) / (BEFORE - V)
+    np.testing.assert_allclose(left, np.exp(-1.0), rtol=1e-12)
+
+
+@pytest.mark.parametrize("slip", [1e-3, 0.1, -0.3, 2.0])
+def test_two_half_slips_are_remembered_like_one_whole(slip):
+    half = MEMORY.remembered(BEFORE, V, 0.5 * slip)
+    np.testing.assert_allclose(
+        MEMORY.remembered(half, V, 0.5 * slip), MEMORY.remembered(BEFORE, V, slip), rtol=1e-13
+    )
+
+
+def test_a_steady_speed_is_remembered_as_it_is():
+    np.testing.assert_array_equal(MEMORY.remembered(V, V, 0.07), V)
+
+
 @pytest.mark.parametrize(
     ("build", "message"),
     [

@@ -1,8 +1,10 @@
 """A case computed here and by CalculiX, side by side.
 
-The comparison is quasi-static: a case with ``inertia = false`` and ``viscous_distance_mm = 0`` has
-the same physics on both sides. What differs then are elements (mean dilatation against one-point
-integration), contact (exact against penalty) and the size of the increments.
+The deck is quasi-static: a case with ``inertia = false`` and ``viscous_distance_mm = 0`` has the same
+physics on both sides. What differs then are elements (mean dilatation against one-point
+integration), contact (exact against penalty) and the size of the increments. Inertia and the damping
+of snaps, which acts on steps without a solution only, add little: with the default settings, a
+20 mm x 10 mm block, 10 mm/s and constant friction 0.3, all differences stay below 0.5 %.
 
 What was found with version 2.20 and Yeoh rubber (blocks of the tests, 20 mm x 8 mm):
 
@@ -38,6 +40,10 @@ FloatArray = NDArray[np.float64]
 #: Columns compared while the block is pressed (against the force) and while it slides.
 PRESSING_COLUMNS = ("platen_displacement_mm", "contact_length_mm")
 SLIDING_COLUMNS = ("platen_displacement_mm", "contact_length_mm", "friction_force_N_per_mm")
+
+#: Share by which our last step may lie beyond theirs: inertia moves the force on the pressed block
+#: by some 1e-5, which must not leave its end out of the comparison.
+END_SLACK = 1e-4
 
 
 def compare_with_calculix(
@@ -108,7 +114,7 @@ def _phase(
     if theirs.empty:
         return pd.DataFrame()
     at = theirs[coordinate].to_numpy()
-    slack = 1e-6 * float(at.max())
+    slack = END_SLACK * float(at.max())
     reached = ours[ours[coordinate].between(at.min() - slack, at.max() + slack)]
     x = reached[coordinate].to_numpy()
     return pd.concat(
