@@ -114,7 +114,7 @@ def folder(tmp_path):
     return tmp_path / "run"
 
 
-MOMENTS = [*range(3), *(pytest.param(n, marks=pytest.mark.slow) for n in range(3, 20))]
+MOMENTS = [*range(2), *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, 20))]
 
 
 @pytest.mark.parametrize("number", MOMENTS)

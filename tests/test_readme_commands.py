@@ -40,6 +40,7 @@ SHORT_STUDY = {
     'base = "introductory"': 'base = "my_case.toml"',
     '"loading.distance_mm" = [10.0]': '"loading.distance_mm" = [3.0]',
     '"block.mesh" = ["coarse"]\n': "",
+    '"friction.law" = ["huemer", "exponential"]\n': "",
 }
 #: Files that a command writes, by its first word, where it has no -o.
 WRITES = {

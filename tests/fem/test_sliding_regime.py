@@ -70,7 +70,7 @@ def slide(**friction):
         }},
         "friction": friction,
         "loading": {
-            "mean_pressure_N_per_mm2": 0.1, "velocity_mm_per_s": 300.0, "distance_mm": 4.0,
+            "mean_pressure_N_per_mm2": 0.1, "velocity_mm_per_s": 300.0, "distance_mm": 3.0,
         },
         "solver": {"step_mm_max": 0.02},
         "output": {"snapshots": 1, "vtu": False},

@@ -159,6 +159,8 @@ def test_rows_appear_as_cases_finish(study, simulation):
 
 def test_template_of_a_study_runs_as_it_is(tmp_path, monkeypatch, simulation, capsys):
     monkeypatch.chdir(tmp_path)
+    # Pictures take most of the time; test_every_case_has_the_folder_of_a_normal_run draws them.
+    monkeypatch.setattr("validation.drawing.run_figures.write_run_figures", lambda *_: [])
     assert treadfem.main(["template", "study"]) == 0
     Path("study.toml").write_text(capsys.readouterr().out)
     assert treadfem.main(["sweep", "study.toml", "-o", "out", "--workers", "1"]) == 0
