@@ -42,10 +42,6 @@ FloatArray = NDArray[np.float64]
 PRESSING_COLUMNS = ("platen_displacement_mm", "contact_length_mm")
 SLIDING_COLUMNS = ("platen_displacement_mm", "contact_length_mm", "friction_force_N_per_mm")
 
-#: Share by which our last step may lie beyond theirs: inertia moves the force on the pressed block
-#: by some 1e-5, which must not leave its end out of the comparison.
-END_SLACK = 1e-4
-
 
 def compare_with_calculix(
     case: Case,
@@ -115,7 +111,7 @@ def _phase(
     if theirs.empty:
         return pd.DataFrame()
     at = theirs[coordinate].to_numpy()
-    slack = END_SLACK * float(at.max())
+    slack = 1e-6 * float(at.max())
     reached = ours[ours[coordinate].between(at.min() - slack, at.max() + slack)]
     x = reached[coordinate].to_numpy()
     return pd.concat(
