@@ -10,7 +10,7 @@ from typing import Any, get_args
 from calibration.conductance import ALSO
 from calibration.errors import DataError
 from calibration.fit_progress import watched
-from calibration.friction import LAWS
+from calibration.friction_curves import LAWS
 from calibration.master_curve import Vertical
 from calibration.outcomes import (
     PARAMETERS_FILE,

@@ -1,18 +1,13 @@
 """Fit of friction laws to measured coefficients.
 
-The law of Huemer has a redundancy: multiplying alpha, beta, a, b, c by one number leaves mu as it
-is. The fit holds ``a`` at the value of the paper's Table 2, 0.9203, so that the other six
-parameters are unique and come out in the paper's scale.
-
 References
 ----------
 .. [1] Hofstetter, K. et al., "Efficient treatment of rubber friction problems in industrial
    applications", eqs. (5)-(8), Table 2.
 """
 
-from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -23,162 +18,20 @@ from numpy.typing import NDArray
 from calibration.errors import DataError
 from calibration.fit_core import FitResult, Loss, Problem, fit, refuse_no_fit
 from calibration.fit_progress import stage
+from calibration.friction_curves import HUEMER_SCALE, LAWS, FrictionCurve
+from calibration.friction_data import FrictionData, read_friction
 from calibration.provenance import version
-from calibration.tables import ABSOLUTE_ZERO_C, Table, read_table
-from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction, shifted
+from contact.friction import FrictionLaw, shifted
 from materials.wlf import WLF
 
 Array = NDArray[np.float64]
 
-COLUMNS = ("p_N_per_mm2", "v_mm_per_s", "mu")
-HUEMER_SCALE = 0.9203  # Table 2's a, the normalisation of the fit
 _SCALED = [0, 1, 4, 5, 6]  # places of alpha, beta, a, b, c
 _POINTS_OF_THE_STARTS = 2_000  # points that starts are made from
 _ONE_TEMPERATURE_K = 5.0  # data that span more were not measured at one temperature
 #: Pressures [N/mm^2] and speeds [mm/s] of tread blocks, up to ten times the mean at the edges.
 _OF_A_BLOCK = ((1e-3, 10.0), (1.0, 1e5))
 _LN10 = float(np.log(10.0))
-
-
-class _Law(ABC):
-    """A friction law as a curve of its parameters, at pressures p and (shifted) speeds v."""
-
-    names: tuple[str, ...]
-    lower: tuple[float, ...]
-    upper: tuple[float, ...]
-
-    def with_scale(self, fixed: dict[str, float]) -> dict[str, float]:
-        """Parameters to hold so that the others are unique."""
-        return fixed
-
-    @abstractmethod
-    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
-        """mu (n,), its derivatives (n, k) by the parameters, and its derivative by ln v (n,)."""
-
-    @abstractmethod
-    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
-        """Starting points (count, k)."""
-
-    @abstractmethod
-    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
-        """The law with the parameters."""
-
-
-class _Exponential(_Law):
-    names = ("A", "B", "C")
-    lower = (1e-9, -5.0, -5.0)
-    upper = (np.inf, 5.0, 5.0)
-
-    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
-        A, B, C = theta
-        shape = p**B * v**C
-        mu = A * shape
-        return mu, np.stack([shape, mu * np.log(p), mu * np.log(v)], axis=1), C * mu
-
-    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
-        known = mu > 0.0
-        columns = np.stack([np.ones(known.sum()), np.log(p[known]), np.log(v[known])], axis=1)
-        lnA, B, C = np.linalg.lstsq(columns, np.log(mu[known]), rcond=None)[0]
-        return np.array([[np.exp(lnA), B, C]])
-
-    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
-        return ExponentialFriction(**values, **floors)
-
-
-class _Huemer(_Law):
-    """The starts spread n and 1/m; for given ones the law is a linear problem in the others."""
-
-    names = ("alpha", "beta", "n", "inverse_m", "a", "b", "c")
-    lower = (0.0, -np.inf, -1.0, 0.01, 1e-9, -np.inf, 0.0)
-    upper = (np.inf, np.inf, 3.0, 2.0, np.inf, np.inf, np.inf)
-
-    def with_scale(self, fixed: dict[str, float]) -> dict[str, float]:
-        scaled = any(fixed.get(name) for name in ("alpha", "beta", "a", "b", "c"))
-        return fixed if scaled else {"a": HUEMER_SCALE, **fixed}
-
-    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
-        alpha, beta, n, inverse_m, a, b, c = theta
-        log_p, log_v = np.log(p), np.log(v)
-        s = np.exp(-inverse_m * log_v)
-        power = np.exp((n - 1.0) * log_p)
-        inverse = 1.0 / (a + s * (b + s * c))
-        mu = (alpha * power + beta) * inverse
-        fall = -mu * inverse
-        by_s = fall * (b + 2.0 * c * s) * s
-        J = np.stack(
-            [power * inverse, inverse, alpha * power * log_p * inverse, -by_s * log_v,
-             fall, fall * s, fall * s * s], axis=1,
-        )  # fmt: skip
-        return mu, J, -inverse_m * by_s
-
-    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
-        a = HUEMER_SCALE
-        spread = max(2, round(np.sqrt(count)))
-        points = []
-        for n in np.linspace(0.2, 1.8, 2 * (spread // 2)):
-            for inverse_m in np.geomspace(0.05, 0.8, -(-count // spread)):
-                s = v**-inverse_m
-                columns = np.stack([p ** (n - 1.0), np.ones_like(p), -mu * s, -mu * s * s], axis=1)
-                alpha, beta, b, c = np.linalg.lstsq(columns, a * mu, rcond=None)[0]
-                if c <= 0.0 or b * b >= 4.0 * a * c:
-                    b, c = -0.9 * a, 0.8 * a
-                points.append([max(alpha, 0.01), beta, n, inverse_m, a, b, c])
-        return np.array(points)
-
-    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
-        return HuemerFriction(**values, **floors)
-
-
-LAWS: dict[str, _Law] = {"exponential": _Exponential(), "huemer": _Huemer()}
-
-
-@dataclass(frozen=True, kw_only=True)
-class FrictionData:
-    """Measured friction coefficients.
-
-    Parameters
-    ----------
-    p, v, mu : ndarray, shape (n,)
-        Pressure [N/mm^2], speed [mm/s], coefficient [-].
-    T : ndarray or None
-        Temperature of the rubber's surface [deg C].
-    table : Table
-    """
-
-    p: Array
-    v: Array
-    mu: Array
-    T: Array | None
-    table: Table
-
-    def at(self, rows: NDArray[np.intp]) -> "FrictionData":
-        """Some of the points."""
-        T = None if self.T is None else self.T[rows]
-        return replace(self, p=self.p[rows], v=self.v[rows], mu=self.mu[rows], T=T)
-
-
-def read_friction(table: pd.DataFrame | str | Path | FrictionData) -> FrictionData:
-    """Read and check a friction table."""
-    if isinstance(table, FrictionData):
-        return table
-    source = read_table(table, COLUMNS)
-    p, v, mu = (source.numbers(column) for column in COLUMNS)
-    source.require_all("p_N_per_mm2", p > 0.0, "a pressure above 0 N/mm^2")
-    source.require_all("v_mm_per_s", v > 0.0, "a sliding speed above 0 mm/s")
-    source.require_all("mu", mu >= 0.0, "a friction coefficient of 0 or more")
-    source.require_all("mu", mu < 10.0, "a friction coefficient below 10 (a ratio, not percent)")
-    if not np.any(mu):
-        source.refuse_at(0, "mu", "zero in every row", "friction coefficients, not all zero")
-    T = read_temperature(source) if source.has("T_C") else None
-    return FrictionData(p=p, v=v, mu=mu, T=T, table=source)
-
-
-def read_temperature(source: Table, column: str = "T_C") -> Array:
-    """Temperatures of a column [deg C], refused at or below absolute zero."""
-    T = source.numbers(column)
-    expected = f"a temperature above absolute zero, {ABSOLUTE_ZERO_C} deg C"
-    source.require_all(column, T > ABSOLUTE_ZERO_C, expected)
-    return T
 
 
 def fit_friction(
@@ -235,7 +88,7 @@ def fit_friction(
 
 
 def _require_data(
-    data: FrictionData, form: _Law, law: str, wlf: Any, held: Mapping[str, float]
+    data: FrictionData, form: FrictionCurve, law: str, wlf: Any, held: Mapping[str, float]
 ) -> None:
     names = (*form.names, "d1", "d2_K") if wlf == "fit" else form.names
     free = sum(name not in held for name in names)
@@ -250,7 +103,7 @@ def _require_data(
         )
 
 
-def _problem(form: _Law, data: FrictionData, wlf: Any, T_ref_C: float) -> Problem:
+def _problem(form: FrictionCurve, data: FrictionData, wlf: Any, T_ref_C: float) -> Problem:
     return replace(
         _problem_at(form, data, wlf, T_ref_C),
         subset=lambda rows: _problem_at(form, data.at(rows), wlf, T_ref_C, whole=data),
@@ -258,7 +111,11 @@ def _problem(form: _Law, data: FrictionData, wlf: Any, T_ref_C: float) -> Proble
 
 
 def _problem_at(
-    form: _Law, data: FrictionData, wlf: Any, T_ref_C: float, whole: FrictionData | None = None
+    form: FrictionCurve,
+    data: FrictionData,
+    wlf: Any,
+    T_ref_C: float,
+    whole: FrictionData | None = None,
 ) -> Problem:
     common: dict[str, Any] = {"observed": data.mu}
     if wlf != "fit":
@@ -284,7 +141,7 @@ def _problem_at(
         by_d2 = _LN10 * d1 * dT / reached**2 * by_log_v
         return mu, np.column_stack([J, by_d1, by_d2])
 
-    coldest = data_min(data if whole is None else whole)
+    coldest = (data if whole is None else whole).coldest
     pole = max(T_ref_C - coldest, 0.0) + 5.0  # keeps every temperature 5 K above the pole
     return Problem(
         names=(*form.names, "d1", "d2_K"),
@@ -302,22 +159,17 @@ def _shifted_speed(data: FrictionData, wlf: WLF | None, T_ref_C: float) -> Array
     return wlf.equivalent_velocity(data.v, data.T, T_ref_C)
 
 
-def _starts(form: _Law, data: FrictionData, wlf: Any, T_ref_C: float, count: int) -> Array:
+def _starts(form: FrictionCurve, data: FrictionData, wlf: Any, T_ref_C: float, count: int) -> Array:
     if wlf != "fit":
         return form.starts(data.p, _shifted_speed(data, wlf, T_ref_C), data.mu, count)
     points = []
     for d2 in (60.0, 200.0, 600.0):
         for decades_per_kelvin in (0.02, 0.06, 0.15):
-            shift = WLF(d1=decades_per_kelvin * d2, d2_K=d2 + max(T_ref_C - data_min(data), 0.0))
+            shift = WLF(d1=decades_per_kelvin * d2, d2_K=d2 + max(T_ref_C - data.coldest, 0.0))
             v = _shifted_speed(data, shift, T_ref_C)
             law = form.starts(data.p, v, data.mu, max(4, count // 4))
             points.append(np.column_stack([law, np.tile([shift.d1, shift.d2_K], (len(law), 1))]))
     return np.concatenate(points)
-
-
-def data_min(data: FrictionData) -> float:
-    """Lowest temperature of the data [deg C]; infinite without temperatures."""
-    return float("inf") if data.T is None else float(data.T.min())
 
 
 def _wlf_of(values: Mapping[str, float]) -> WLF:
@@ -327,7 +179,7 @@ def _wlf_of(values: Mapping[str, float]) -> WLF:
 def _completed(
     result: FitResult,
     law: str,
-    form: _Law,
+    form: FrictionCurve,
     data: FrictionData,
     wlf: WLF | None,
     T_ref_C: float,

@@ -14,7 +14,8 @@ import pandas as pd
 from calibration import fit_progress
 from calibration.conductance import conductance_constant, fit_conductance, read_heating_record
 from calibration.fit_core import FitResult
-from calibration.friction import compare_laws, fit_friction, read_friction
+from calibration.friction import compare_laws, fit_friction
+from calibration.friction_data import read_friction
 from calibration.heating_rig import HeatingRig
 from calibration.hyperelastic import CHOICES, compare_models, fit_hyperelastic
 from calibration.parameter_file import parameter_text

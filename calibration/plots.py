@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from calibration.conductance import HeatingRecord
 from calibration.fit_core import FitResult
-from calibration.friction import FrictionData
+from calibration.friction_data import FrictionData
 from calibration.master_curve import MasterCurve
 from calibration.stress_data import StressData
 

@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.friction import read_temperature
 from calibration.tables import Table, read_table
 
 Array = NDArray[np.float64]
@@ -90,14 +89,13 @@ def read_sweeps(
         sweep of its own where each holds one, else 1 K.
     """
     source = table if isinstance(table, Table) else read_table(table, ("T_C",))
-    T, f = read_temperature(source), _frequency(source)
+    T, f = source.numbers("T_C"), _frequency(source)
     present = tuple(name for name in QUANTITIES if source.has(name))
     if not present:
         source.require((MODULUS,))
     values = {name: source.numbers(name) for name in present}
-    for name in present:
-        unit = "" if name == TAN_DELTA else " N/mm^2"
-        source.require_all(name, values[name] > 0.0, f"a number above 0{unit}")
+    if TAN_DELTA in values:
+        source.require_all(TAN_DELTA, values[TAN_DELTA] > 0.0, "a number above 0")
     warnings = _consistency(source, values)
     quantities = tuple(q for q in present if not (q == TAN_DELTA and len(present) == 3))
     logs = {name: np.log10(values[name]) for name in quantities}
@@ -122,12 +120,8 @@ def read_sweeps(
 def _frequency(source: Table) -> Array:
     if not source.has(OMEGA):
         source.require((FREQUENCY,))
-        f = source.numbers(FREQUENCY)
-        source.require_all(FREQUENCY, f > 0.0, "a frequency above 0 Hz")
-        return f
-    omega = source.numbers(OMEGA)
-    source.require_all(OMEGA, omega > 0.0, "an angular frequency above 0 rad/s")
-    f = omega / (2.0 * np.pi)
+        return source.numbers(FREQUENCY)
+    f = source.numbers(OMEGA) / (2.0 * np.pi)
     if source.has(FREQUENCY):
         same = np.abs(source.numbers(FREQUENCY) - f) <= 0.01 * f
         source.require_all(FREQUENCY, same, f"{OMEGA}/(2 pi) to 1 %, or one of the two columns")

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from calibration.errors import DataError
 from calibration.fit_core import FitResult, Problem, fit
-from calibration.friction import read_temperature
 from calibration.master_curve import MasterCurve, shift_sweeps
 from calibration.provenance import version
 from calibration.row_account import LeftOut, left_out
@@ -161,7 +160,7 @@ def read_shift_factors(
         rows = nothing
     else:
         assert source is not None
-        T, log_aT, rows = read_temperature(source), _logarithms(source), source.rows
+        T, log_aT, rows = source.numbers("T_C"), _logarithms(source), source.rows
     keep = np.ones(T.size, dtype=bool)
     out: tuple[LeftOut, ...] = ()
     if window is not None:

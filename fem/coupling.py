@@ -27,7 +27,8 @@ from contact.self_contact import (
 )
 from fem import newton
 from fem.case_sections import MOST_PASSES
-from fem.heat import HeatLoad, HeatModel, HeatState
+from fem.heat import HeatModel
+from fem.heat_state import HeatLoad, HeatState
 from fem.mechanics import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
 from fem.programme import Target
 from fem.regularisation import SnapDamping

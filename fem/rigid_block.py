@@ -16,7 +16,8 @@ from contact.conductance import GapConductance
 from contact.friction import ThermalFriction
 from contact.partition import HeatPartition
 from fem.case import Case
-from fem.heat import HeatLoad, HeatModel, HeatState
+from fem.heat import HeatModel
+from fem.heat_state import HeatLoad, HeatState
 from fem.mesh import BlockMesh
 
 FloatArray = NDArray[np.float64]

@@ -13,7 +13,7 @@ from fem.audit import EnergyAudit
 from fem.bottom_history import BottomHistory
 from fem.case import Case
 from fem.coupling import CoupledState
-from fem.heat import HeatState
+from fem.heat_state import HeatState
 from fem.snapshot import Snapshot
 from fem.step_control import StepPlan
 

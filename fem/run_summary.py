@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 
 from fem.balance import balance_error, share
-from fem.heat import HeatModel, HeatState
+from fem.heat import HeatModel
+from fem.heat_state import HeatState
 from fem.layer_resolution import layer_error
 from fem.outcome import Outcome
 

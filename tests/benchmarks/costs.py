@@ -18,7 +18,8 @@ from scipy.sparse.linalg import splu
 from fem import newton
 from fem.direct_solver import SYMMETRIC
 from fem.elements import Q1P0Elements
-from fem.heat import HeatLoad, HeatModel
+from fem.heat import HeatModel
+from fem.heat_state import HeatLoad
 from fem.mechanics import BlockMechanics
 from fem.mesh import NAMED_GRADINGS, BlockMesh, block_mesh
 from fem.rigid_block import bottom_lengths

@@ -4,7 +4,8 @@ from itertools import count
 
 import numpy as np
 
-from fem.heat import HeatLoad, HeatModel
+from fem.heat import HeatModel
+from fem.heat_state import HeatLoad
 from fem.mesh import NAMED_GRADINGS, block_mesh
 from fem.rigid_block import bottom_lengths
 from materials.thermal import ASPHALT, RUBBER

@@ -32,7 +32,7 @@ KINDS = {
         lambda: {
             "p_N_per_mm2": random(0.1, 0.5), "v_mm_per_s": random(1, 300), "mu": random(0.5, 1)
         },
-        "from calibration.friction import read_friction as read",
+        "from calibration.friction_data import read_friction as read",
     ),
     "hyperelastic": (
         lambda: {

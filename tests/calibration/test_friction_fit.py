@@ -8,7 +8,7 @@ import pytest
 
 import treadfem
 from calibration import DataError, compare_laws, fit_friction
-from calibration.friction import LAWS
+from calibration.friction_curves import LAWS
 from calibration.paper_tables import FRICTION_LAWS, friction_values
 from calibration.synthetic import synthetic_friction
 from contact import ExponentialFriction, HuemerFriction, ThermalFriction

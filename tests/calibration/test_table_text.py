@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from calibration.conductance import read_heating_record
 from calibration.errors import DataError
-from calibration.friction import read_friction
+from calibration.friction_data import read_friction
 from calibration.heating_rig import HeatingRig
 from calibration.hyperelastic import select_data
 from calibration.partition_data import read_partition_data

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fem.heat import HeatLoad, HeatModel, HeatState
+from fem.heat import HeatModel
 from fem.heat_road import RoadGrid
+from fem.heat_state import HeatLoad, HeatState
 from fem.mesh import Grading, block_mesh
 from fem.radiation import STEFAN_BOLTZMANN
 from materials.thermal import ASPHALT, RUBBER

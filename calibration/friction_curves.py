@@ -1,0 +1,110 @@
+"""Friction laws as curves of their parameters, for fits.
+
+The law of Huemer has a redundancy: multiplying alpha, beta, a, b, c by one number leaves mu as it
+is. The fit holds ``a`` at the value of the paper's Table 2, 0.9203, so that the other six
+parameters are unique and come out in the paper's scale.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction
+
+Array = NDArray[np.float64]
+
+HUEMER_SCALE = 0.9203  # Table 2's a, the normalisation of the fit
+
+
+class FrictionCurve(ABC):
+    """A friction law as a curve of its parameters, at pressures p and (shifted) speeds v."""
+
+    names: tuple[str, ...]
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+
+    def with_scale(self, fixed: dict[str, float]) -> dict[str, float]:
+        """Parameters to hold so that the others are unique."""
+        return fixed
+
+    @abstractmethod
+    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+        """mu (n,), its derivatives (n, k) by the parameters, and its derivative by ln v (n,)."""
+
+    @abstractmethod
+    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+        """Starting points (count, k)."""
+
+    @abstractmethod
+    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
+        """The law with the parameters."""
+
+
+class _Exponential(FrictionCurve):
+    names = ("A", "B", "C")
+    lower = (1e-9, -5.0, -5.0)
+    upper = (np.inf, 5.0, 5.0)
+
+    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+        A, B, C = theta
+        shape = p**B * v**C
+        mu = A * shape
+        return mu, np.stack([shape, mu * np.log(p), mu * np.log(v)], axis=1), C * mu
+
+    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+        known = mu > 0.0
+        columns = np.stack([np.ones(known.sum()), np.log(p[known]), np.log(v[known])], axis=1)
+        lnA, B, C = np.linalg.lstsq(columns, np.log(mu[known]), rcond=None)[0]
+        return np.array([[np.exp(lnA), B, C]])
+
+    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
+        return ExponentialFriction(**values, **floors)
+
+
+class _Huemer(FrictionCurve):
+    """The starts spread n and 1/m; for given ones the law is a linear problem in the others."""
+
+    names = ("alpha", "beta", "n", "inverse_m", "a", "b", "c")
+    lower = (0.0, -np.inf, -1.0, 0.01, 1e-9, -np.inf, 0.0)
+    upper = (np.inf, np.inf, 3.0, 2.0, np.inf, np.inf, np.inf)
+
+    def with_scale(self, fixed: dict[str, float]) -> dict[str, float]:
+        scaled = any(fixed.get(name) for name in ("alpha", "beta", "a", "b", "c"))
+        return fixed if scaled else {"a": HUEMER_SCALE, **fixed}
+
+    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+        alpha, beta, n, inverse_m, a, b, c = theta
+        log_p, log_v = np.log(p), np.log(v)
+        s = np.exp(-inverse_m * log_v)
+        power = np.exp((n - 1.0) * log_p)
+        inverse = 1.0 / (a + s * (b + s * c))
+        mu = (alpha * power + beta) * inverse
+        fall = -mu * inverse
+        by_s = fall * (b + 2.0 * c * s) * s
+        J = np.stack(
+            [power * inverse, inverse, alpha * power * log_p * inverse, -by_s * log_v,
+             fall, fall * s, fall * s * s], axis=1,
+        )  # fmt: skip
+        return mu, J, -inverse_m * by_s
+
+    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+        a = HUEMER_SCALE
+        spread = max(2, round(np.sqrt(count)))
+        points = []
+        for n in np.linspace(0.2, 1.8, 2 * (spread // 2)):
+            for inverse_m in np.geomspace(0.05, 0.8, -(-count // spread)):
+                s = v**-inverse_m
+                columns = np.stack([p ** (n - 1.0), np.ones_like(p), -mu * s, -mu * s * s], axis=1)
+                alpha, beta, b, c = np.linalg.lstsq(columns, a * mu, rcond=None)[0]
+                if c <= 0.0 or b * b >= 4.0 * a * c:
+                    b, c = -0.9 * a, 0.8 * a
+                points.append([max(alpha, 0.01), beta, n, inverse_m, a, b, c])
+        return np.array(points)
+
+    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
+        return HuemerFriction(**values, **floors)
+
+
+LAWS: dict[str, FrictionCurve] = {"exponential": _Exponential(), "huemer": _Huemer()}
