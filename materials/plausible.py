@@ -27,7 +27,8 @@ class Slip:
 
     def converted(self, number: ArrayLike) -> Array:
         """The number in the unit of the quantity."""
-        return (np.asarray(number, dtype=float) - self.zero) * self.factor
+        with np.errstate(over="ignore"):  # infinite is as impossible as the number was
+            return (np.asarray(number, dtype=float) - self.zero) * self.factor
 
 
 @dataclass(frozen=True, kw_only=True)

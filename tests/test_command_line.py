@@ -16,7 +16,7 @@ import pytest
 import treadfem
 from fem.case import Case
 from fem.case_reading import parse_override
-from tests.wrong_cases import LOADING
+from tests.wrong_inputs import LOADING
 from validation.sweeps.study_runs import StudyError
 
 ROOT = Path(__file__).parents[1]

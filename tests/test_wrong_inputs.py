@@ -8,8 +8,7 @@ import pytest
 
 import treadfem
 from tests.validation.measured.test_comparison import write_run
-from tests.wrong_cases import LOADING
-from tests.wrong_inputs import UNUSUAL_INPUTS, WRONG_INPUTS, WrongInput
+from tests.wrong_inputs import LOADING, UNUSUAL_INPUTS, WRONG_INPUTS, WrongInput
 
 
 @pytest.fixture(scope="module")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 
 from materials import plausible
 from materials.plausible import (
+    BLOCK_SIZE,
     COLUMNS,
     FRICTION,
     POSITION,
@@ -95,3 +98,12 @@ def test_names_of_columns_end_in_the_unit_of_their_quantity(column):
     units = {"deg C": "_C", "N/mm^2": "_N_per_mm2", "mm/s": "_mm_per_s", "mm": "_mm", "s": "_s"}
     ending = units.get(COLUMNS[column].unit)
     assert ending is None or column.endswith(ending)
+
+
+@pytest.mark.parametrize("value", [1e308, -1e308])
+def test_numbers_near_the_largest_there_is_are_refused_without_a_warning(value):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        finding = judge(np.array([value]), BLOCK_SIZE)
+    assert finding is not None
+    assert finding.impossible

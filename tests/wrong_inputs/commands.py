@@ -1,0 +1,70 @@
+"""Rig files, studies, and commands beside `run` and `calibrate`."""
+
+from __future__ import annotations
+
+import os
+
+from tests.wrong_inputs.cases import LOADING
+from tests.wrong_inputs.rows import WrongInput, rig, study
+
+RIGS = [
+    rig("ambient in kelvin", "[rig]\nambient_C = 293\n", "which looks like kelvin (19.85 deg C)"),
+    rig(
+        "density in t/mm^3",
+        "[rig.rubber]\nconductivity_W_per_mK = 0.3\ndensity_kg_per_m3 = 1.2e-9\n"
+        "specific_heat_kJ_per_kgK = 1.4\n",
+        "density_kg_per_m3: found 1.2e-09, which looks like t/mm^3 (1200 kg/m^3)",
+    ),
+    rig(
+        "specific heat in J",
+        "[rig.rubber]\nconductivity_W_per_mK = 0.3\ndensity_kg_per_m3 = 1200\n"
+        "specific_heat_kJ_per_kgK = 1450\n",
+        "which looks like J/(kg K) (1.45 kJ/(kg K))",
+    ),
+    rig("deep nesting", "[rig]\nx = " + 5000 * "[", "tables nested too deeply"),
+    rig("huge integer", "[rig]\nblock_height_mm = " + 5000 * "9", "found text that is not TOML"),
+    rig("huge hexadecimal", "[rig]\nblock_height_mm = 0x" + 5000 * "9", "of 6021 digits"),
+    rig("no text", b"\xff\xfe\x00", "not UTF-8 text"),
+    rig("named pipe", os.mkfifo, "a device or a pipe"),
+]
+
+STUDIES = [
+    study(
+        "kelvin in the grid",
+        'base = "case.toml"\n[grid]\n"heat.ambient_C" = [20.0, 293.0]\n',
+        "heat.ambient_C: found 293.0, which looks like kelvin (19.85 deg C)",
+    ),
+    study(
+        "negative friction in the grid",
+        'base = "case.toml"\n[grid]\n"friction.beta" = [0.4, -0.9]\n',
+        "friction.law: found huemer with the coefficient -",
+    ),
+    study(
+        "a month in the grid",
+        'base = "case.toml"\n[grid]\n"loading.distance_mm" = [1.0, 1e6]\n'
+        '"solver.heat_step_mm" = [1e-5]\n',
+        "solver.heat_step_mm",
+        "days on one core",
+    ),
+    study("base that is no file", 'base = "nowhere.toml"\n', "nowhere.toml", "no such file"),
+]
+
+EXPORTS = [
+    WrongInput(
+        kind="export: kelvin",
+        words=("export", "case.toml", "-o", "out.inp", "--set", "heat.ambient_C=293"),
+        files={"case.toml": LOADING},
+        expected=("heat.ambient_C", "looks like kelvin"),
+    ),
+    WrongInput(
+        kind="check: device",
+        words=("check", "/dev/zero"),
+        expected=("/dev/zero", "a device or a pipe"),
+    ),
+    WrongInput(
+        kind="check: hours of heat steps",
+        words=("check", "case.toml", "--set", "solver.heat_step_mm=1e-7"),
+        files={"case.toml": LOADING.replace("120.0", "1000.0")},
+        expected=("solver.heat_step_mm", "days on one core", "within 30 days"),
+    ),
+]
