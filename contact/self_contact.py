@@ -28,9 +28,11 @@ from scipy.spatial import cKDTree
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-#: Normals of a node and a segment must oppose each other by more than this cosine. At the tip of a
-#: fold the boundary turns right round, so that the normal of one of the node's own segments counts.
-OPPOSING = -0.2
+#: The cosine between the normals of a node and a segment that can meet is below this: they oppose
+#: each other. At the tip of a fold the boundary turns right round, so that the normal of one of the
+#: node's own segments counts. A margin here loses nodes beside a corner that the fold has closed
+#: on: they pass through at cosines of -0.1, deeper with every step.
+OPPOSING = 0.0
 #: Nodes this close to a segment along the boundary (in segments) do not meet it: only its own.
 #: A crease starts between the next nodes. If those pass through each other, the loop grows from
 #: node to node, and each one is behind the other face before it could meet it.
