@@ -9,8 +9,8 @@ that have a solution see none of it, so that the onset of sliding is the elastic
 The relaxation time is stated as a sliding distance, so that the damping acts alike at all
 velocities; most of it sits at the leading corner, where the surface folds. Too much of it holds the
 edge back while the block slides on, which leads to another of its equilibria; too little lets steps
-become small. The default is the weakest that needs no more steps than the elastic onset does. What
-it dissipates is audited: `snap_share` in the steps that had no solution without,
+become small. The default weighs both (`make convergence` goes to a hundredth of it). What it
+dissipates is audited: `snap_share` in the steps that had no solution without,
 `regularisation_share` in those through which it fades.
 """
 
