@@ -67,7 +67,7 @@ bench-scaling: $(READY)
 	$(BIN)/python -m pytest tests/benchmarks/test_scaling.py --benchmark-only -s
 
 # Figure 8 shows the introductory example, which is run first unless it has been run to its end.
-$(RESULTS)/run.done: examples/introductory.toml $(wildcard materials/*.py contact/*.py fem/*.py) | $(READY)
+$(RESULTS)/run.done: examples/introductory.toml $(wildcard materials/*.py contact/*.py fem/*.py fem/*/*.py) | $(READY)
 	$(BIN)/treadfem run $< -o $(RESULTS)/run
 	@touch $@
 

@@ -15,19 +15,19 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from fem import Case, simulate
-from fem.case_errors import CaseError
-from fem.case_reading import parse_override
-from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
-from fem.cost import estimated_cost, refuse_unaffordable
-from fem.interruption import gently, listening
-from fem.machine_faults import cause, one_line
-from fem.messages import BAD_INPUT, DONE, INTERRUPTED, NOT_CONVERGED, WARNED, say_of, warn
-from fem.output_folder import check_output_file, chosen_output, output_folder
-from fem.results import FIGURES_FOLDER, RUN_FILES, read_summary
-from fem.resume import resumable
-from fem.run_progress import RunProgress
-from fem.template import case_template
-from fem.terminal import lenient_streams, open_standard_descriptors
+from fem.case.errors import CaseError
+from fem.case.reading import parse_override
+from fem.case.template import case_template
+from fem.files.interruption import gently, listening
+from fem.files.machine_faults import cause, one_line
+from fem.files.messages import BAD_INPUT, DONE, INTERRUPTED, NOT_CONVERGED, WARNED, say_of, warn
+from fem.files.terminal import lenient_streams, open_standard_descriptors
+from fem.results.checkpoint import CHECKPOINT_FILE, remove_checkpoint
+from fem.results.output_folder import check_output_file, chosen_output, output_folder
+from fem.results.result import FIGURES_FOLDER, RUN_FILES, read_summary
+from fem.results.resume import resumable
+from fem.stepping.cost import estimated_cost, refuse_unaffordable
+from fem.stepping.progress import RunProgress
 from validation.commands import add_arguments as add_paper_commands
 
 _STATUS_CODES = {"ok": DONE, "interrupted": INTERRUPTED}
@@ -340,7 +340,7 @@ def _add_compare(commands: Any) -> None:
 
 
 def _compare(arguments: argparse.Namespace) -> int:
-    from calibration.errors import DataError
+    from calibration.data.errors import DataError
     from validation.measured.compare_command import write_comparison
 
     directory = chosen_output(arguments.output, Path("results/comparison"))

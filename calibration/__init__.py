@@ -1,10 +1,10 @@
 """Calibration: from measured tables to parameters with their uncertainty."""
 
-from calibration.errors import DataError
-from calibration.fit_core import FitResult
-from calibration.friction import compare_laws, fit_friction
-from calibration.hyperelastic import compare_models, fit_hyperelastic
-from calibration.master_curve import shift_sweeps
+from calibration.data.errors import DataError
+from calibration.fitting.core import FitResult
+from calibration.friction.fit import compare_laws, fit_friction
+from calibration.rubber.hyperelastic import compare_models, fit_hyperelastic
+from calibration.shifting.master_curve import shift_sweeps
 from calibration.wlf import fit_wlf
 
 __all__ = [

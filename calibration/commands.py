@@ -7,11 +7,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, get_args
 
-from calibration.conductance import ALSO
-from calibration.errors import DataError
-from calibration.fit_progress import watched
-from calibration.friction_curves import LAWS
-from calibration.master_curve import Vertical
+from calibration.conductance.fit import ALSO
+from calibration.data.errors import DataError
+from calibration.data.tables import ABSOLUTE_ZERO_C
+from calibration.fitting.progress import watched
+from calibration.friction.curves import LAWS
 from calibration.outcomes import (
     PARAMETERS_FILE,
     Outcome,
@@ -21,16 +21,16 @@ from calibration.outcomes import (
     calibrate_partition,
     calibrate_wlf,
 )
-from calibration.partition import MOST_SIMULATIONS
-from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStoppedError
-from calibration.stress_models import STRESS_MODELS
-from calibration.stress_zero import Zero
-from calibration.tables import ABSOLUTE_ZERO_C
-from fem.case import Case
-from fem.case_errors import CaseError, describe
-from fem.case_reading import parse_override
-from fem.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
-from fem.output_folder import chosen_output, output_folder
+from calibration.partition.fit import MOST_SIMULATIONS
+from calibration.partition.simulation_store import SIMULATIONS_FOLDER, SimulationStoppedError
+from calibration.rubber.stress_models import STRESS_MODELS
+from calibration.rubber.stress_zero import Zero
+from calibration.shifting.master_curve import Vertical
+from fem.case.case import Case
+from fem.case.errors import CaseError, describe
+from fem.case.reading import parse_override
+from fem.files.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
+from fem.results.output_folder import chosen_output, output_folder
 from materials.hyperelastic import MODES
 from materials.wlf import WLF
 

@@ -11,15 +11,17 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from calibration import fit_progress
-from calibration.conductance import conductance_constant, fit_conductance, read_heating_record
-from calibration.fit_core import FitResult
-from calibration.friction import compare_laws, fit_friction
-from calibration.friction_data import read_friction
-from calibration.heating_rig import HeatingRig
-from calibration.hyperelastic import CHOICES, compare_models, fit_hyperelastic
-from calibration.parameter_file import parameter_text
-from calibration.partition import PartitionFit, fit_partition
+from calibration.conductance.fit import conductance_constant, fit_conductance, read_heating_record
+from calibration.conductance.heating_rig import HeatingRig
+from calibration.conductance.rig_file import read_contact_surface, read_heating_rig
+from calibration.fitting import progress as fit_progress
+from calibration.fitting.core import FitResult
+from calibration.fitting.parameter_file import parameter_text
+from calibration.friction.data import read_friction
+from calibration.friction.fit import compare_laws, fit_friction
+from calibration.partition.fit import PartitionFit, fit_partition
+from calibration.partition.simulation_progress import SimulationProgress
+from calibration.partition.simulation_store import SIMULATIONS_FOLDER, SimulationStore
 from calibration.plots import (
     plot_comparison,
     plot_conductance,
@@ -30,14 +32,12 @@ from calibration.plots import (
     plot_wlf,
     png,
 )
-from calibration.rig_file import read_contact_surface, read_heating_rig
-from calibration.simulation_progress import SimulationProgress
-from calibration.simulation_store import SIMULATIONS_FOLDER, SimulationStore
-from calibration.stress_data import select_data
+from calibration.rubber.hyperelastic import CHOICES, compare_models, fit_hyperelastic
+from calibration.rubber.stress_data import select_data
 from calibration.wlf import fit_wlf, read_shift_factors
-from fem import spreadsheet
-from fem.atomic_files import staged_directory
-from fem.case import Case
+from fem.case.case import Case
+from fem.files import spreadsheet
+from fem.files.atomic import staged_directory
 
 PARAMETERS_FILE = "parameters.toml"
 

@@ -14,9 +14,9 @@ import numpy as np
 import pandas as pd
 
 from calibration.datasets import DATASETS, dataset_path
-from calibration.fit_core import FitResult
-from calibration.friction import fit_friction
-from calibration.hyperelastic import compare_models, fit_hyperelastic
+from calibration.fitting.core import FitResult
+from calibration.friction.fit import fit_friction
+from calibration.rubber.hyperelastic import compare_models, fit_hyperelastic
 from calibration.synthetic import (
     FRICTION_NOISE,
     STRESS_NOISE_N_PER_MM2,

@@ -9,11 +9,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from calibration.conductance import HeatingRecord
-from calibration.fit_core import FitResult
-from calibration.friction_data import FrictionData
-from calibration.master_curve import MasterCurve
-from calibration.stress_data import StressData
+from calibration.conductance.fit import HeatingRecord
+from calibration.fitting.core import FitResult
+from calibration.friction.data import FrictionData
+from calibration.rubber.stress_data import StressData
+from calibration.shifting.master_curve import MasterCurve
 
 Array = NDArray[np.float64]
 

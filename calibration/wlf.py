@@ -14,13 +14,13 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.errors import DataError
-from calibration.fit_core import FitResult, Problem, fit
-from calibration.master_curve import MasterCurve, shift_sweeps
-from calibration.provenance import version
-from calibration.row_account import LeftOut, left_out
-from calibration.sweeps import is_sweep_table
-from calibration.tables import Table, read_table
+from calibration.data.errors import DataError
+from calibration.data.row_account import LeftOut, left_out
+from calibration.data.tables import Table, read_table
+from calibration.fitting.core import FitResult, Problem, fit
+from calibration.fitting.provenance import version
+from calibration.shifting.frequency_sweeps import is_sweep_table
+from calibration.shifting.master_curve import MasterCurve, shift_sweeps
 from materials.wlf import WLF
 
 Array = NDArray[np.float64]
@@ -89,7 +89,7 @@ def fit_wlf(
     other_sign : bool
         The table holds 1/a_T, which rises with temperature.
     **shifting
-        Options of `calibration.master_curve.shift_sweeps`.
+        Options of `calibration.shifting.master_curve.shift_sweeps`.
 
     Raises
     ------

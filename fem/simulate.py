@@ -12,26 +12,35 @@ import numpy as np
 import pandas as pd
 
 from fem import newton
-from fem.audit import EnergyAudit, audited
-from fem.case import Case
-from fem.checkpoint import Checkpoint, notes
-from fem.coupling import AcceptedStep, ContactLaws, CoupledModel, CoupledState, SelfContact
-from fem.elements import Q1P0Elements
-from fem.fitted_window import window_notes, window_warnings
-from fem.heat import HeatModel
-from fem.linear_solver import linear_solver
-from fem.mechanics import BlockMechanics
-from fem.mesh import BlockMesh
-from fem.model_parts import Progress, mesh_of
-from fem.outcome import OK, Outcome, failed, stoppable
-from fem.program_version import program_version
-from fem.programme import Phase, programme
-from fem.recorder import Recorder
-from fem.regularisation import SnapDamping
-from fem.results import Result
-from fem.rigid_run import simulate_rigid
-from fem.run_point import Records, RunPoint, RunRecord, columns, snapshots_due
-from fem.run_summary import (
+from fem.case.case import Case
+from fem.files.program_version import program_version
+from fem.heat.model import HeatModel
+from fem.mechanics.elements import Q1P0Elements
+from fem.mechanics.regularisation import SnapDamping
+from fem.mechanics.step import BlockMechanics
+from fem.mesh.block import BlockMesh
+from fem.results.checkpoint import Checkpoint, notes
+from fem.results.fitted_window import window_notes, window_warnings
+from fem.results.outcome import OK, Outcome, failed, stoppable
+from fem.results.result import Result
+from fem.results.sliding_regime import sliding_regime
+from fem.results.trust import judged
+from fem.solvers.kept_factors import linear_solver
+from fem.stepping.audit import EnergyAudit, audited
+from fem.stepping.coupled_step import (
+    AcceptedStep,
+    ContactLaws,
+    CoupledModel,
+    CoupledState,
+    SelfContact,
+)
+from fem.stepping.model_parts import Progress, mesh_of
+from fem.stepping.point import Records, RunPoint, RunRecord, columns, snapshots_due
+from fem.stepping.programme import Phase, programme
+from fem.stepping.recorder import Recorder
+from fem.stepping.rigid_run import simulate_rigid
+from fem.stepping.step_control import StepController, StepPlan, landed
+from fem.stepping.summary import (
     closing_lines,
     heat_error,
     lag_share,
@@ -41,9 +50,6 @@ from fem.run_summary import (
     sliding_means,
     steady_shares,
 )
-from fem.sliding_regime import sliding_regime
-from fem.step_control import StepController, StepPlan, landed
-from fem.trust import judged
 
 #: Contact modulus of the block with itself over the contact's reference modulus: the bulk modulus,
 #: or 100 initial shear moduli for more compressible rubber, whose crease stiffens just as much. A

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from fem.bottom_history import BottomHistory
-from fem.boundary_table import BoundaryContact, boundary_table
-from fem.case import Case
-from fem.columns import HISTORY
-from fem.mesh import BlockMesh, Grading, block_mesh
-from fem.program_version import program_version
-from fem.results import Result
-from fem.snapshot import BlockGeometry, Snapshot
+from fem.case.case import Case
+from fem.files.program_version import program_version
+from fem.mesh.block import BlockMesh, Grading, block_mesh
+from fem.results.bottom_history import BottomHistory
+from fem.results.boundary import BoundaryContact, boundary_table
+from fem.results.columns import HISTORY
+from fem.results.result import Result
+from fem.results.snapshot import BlockGeometry, Snapshot
 
 LENGTH, HEIGHT = 20.0, 8.0
 

@@ -14,8 +14,8 @@ from types import SimpleNamespace
 import pytest
 
 import treadfem
-from fem.case import Case
-from fem.case_reading import parse_override
+from fem.case.case import Case
+from fem.case.reading import parse_override
 from tests.wrong_inputs import LOADING
 from validation.sweeps.study_runs import StudyError
 
@@ -118,7 +118,7 @@ def test_output_folder_without_permission_is_refused(case_file, capsys, stub):
 
 
 def test_pardiso_without_its_package_is_refused(case_file, capsys, monkeypatch):
-    monkeypatch.setattr("fem.case_sections.find_spec", lambda name: None)
+    monkeypatch.setattr("fem.case.sections.find_spec", lambda name: None)
     assert command("check", case_file, "--set", "solver.linear_solver=pardiso") == 2
     assert "solver.linear_solver" in capsys.readouterr().err
 

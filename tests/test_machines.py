@@ -203,7 +203,7 @@ def test_terminal_without_the_letters_of_a_path_gets_escapes(folder):
 LITTLE_MEMORY = """
 import resource, sys
 import treadfem
-from fem import run_progress
+from fem.stepping import progress as run_progress
 show, steps = run_progress.RunProgress.__call__, []
 
 def limited(self, state):

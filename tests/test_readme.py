@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import treadfem
-from fem.case import Case
+from fem.case.case import Case
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -21,8 +21,8 @@ from pathlib import Path
 import pytest
 
 import treadfem
-from fem.case import Case
-from fem.results import Result
+from fem.case.case import Case
+from fem.results.result import Result
 from tests.calibration.test_readme_examples import examples as calibrate_examples
 from tests.made_up_result import made_up_result
 from validation.sweeps import sweep_case

@@ -12,9 +12,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from fem.case_errors import CaseError
-from fem.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
-from fem.output_folder import check_output_file, chosen_output, output_folder
+from fem.case.errors import CaseError
+from fem.files.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
+from fem.results.output_folder import check_output_file, chosen_output, output_folder
 
 #: Figures and tables share a folder, since some are made of the same runs.
 _PAPER = "results/figures"
@@ -67,7 +67,7 @@ def _add_folder(parser: argparse.ArgumentParser, what: str) -> None:
 
 
 def _figure(arguments: argparse.Namespace) -> int:
-    from calibration.errors import DataError
+    from calibration.data.errors import DataError
     from validation.measured.measurements import read_measurements
     from validation.paper.figures import FIGURES, MEASURABLE, make_figure
 

@@ -16,13 +16,13 @@ from scipy.sparse import csc_matrix, diags, identity, kron
 from scipy.sparse.linalg import splu
 
 from fem import newton
-from fem.direct_solver import SYMMETRIC
-from fem.elements import Q1P0Elements
-from fem.heat import HeatModel
-from fem.heat_state import HeatLoad
-from fem.mechanics import BlockMechanics
-from fem.mesh import NAMED_GRADINGS, BlockMesh, block_mesh
-from fem.rigid_block import bottom_lengths
+from fem.heat.model import HeatModel
+from fem.heat.state import HeatLoad
+from fem.mechanics.elements import Q1P0Elements
+from fem.mechanics.step import BlockMechanics
+from fem.mesh.block import NAMED_GRADINGS, BlockMesh, block_mesh
+from fem.solvers.direct import SYMMETRIC
+from fem.stepping.rigid_block import bottom_lengths
 from materials.thermal import ASPHALT, RUBBER
 from tests.benchmarks.counts import counted_run
 from tests.benchmarks.measured_run import introductory

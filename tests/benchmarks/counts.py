@@ -7,8 +7,10 @@ from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
 
-from fem import Case, direct_solver, heat_block, simulate
-from fem.results import Result
+from fem import Case, simulate
+from fem.heat import block as heat_block
+from fem.results.result import Result
+from fem.solvers import direct as direct_solver
 from tests.benchmarks.measured_run import introductory
 
 Counts = dict[str, int]

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from calibration import fit_friction, fit_hyperelastic
-from calibration.stress_models import STRESS_MODELS
+from calibration.rubber.stress_models import STRESS_MODELS
 from calibration.synthetic import synthetic_friction
 from contact import HuemerFriction
 from materials import compound

@@ -4,10 +4,10 @@ from itertools import count
 
 import numpy as np
 
-from fem.heat import HeatModel
-from fem.heat_state import HeatLoad
-from fem.mesh import NAMED_GRADINGS, block_mesh
-from fem.rigid_block import bottom_lengths
+from fem.heat.model import HeatModel
+from fem.heat.state import HeatLoad
+from fem.mesh.block import NAMED_GRADINGS, block_mesh
+from fem.stepping.rigid_block import bottom_lengths
 from materials.thermal import ASPHALT, RUBBER
 
 

@@ -7,10 +7,10 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from fem import Case, newton, simulate
-from fem.direct_solver import SYMMETRIC
-from fem.elements import Q1P0Elements
-from fem.mechanics import BlockMechanics
-from fem.mesh import NAMED_GRADINGS, block_mesh
+from fem.mechanics.elements import Q1P0Elements
+from fem.mechanics.step import BlockMechanics
+from fem.mesh.block import NAMED_GRADINGS, block_mesh
+from fem.solvers.direct import SYMMETRIC
 from tests.fem.contact_steps import YEOH, load_of, pressed
 
 ROUNDS = 15

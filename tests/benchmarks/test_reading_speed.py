@@ -16,7 +16,7 @@ from tests.validation.measured.test_comparison import write_run
 ROWS = 1_000_000
 RNG = np.random.default_rng(0)
 CASE = (
-    "from fem.case import Case\n"
+    "from fem.case.case import Case\n"
     "case = Case.from_dict({'loading': {'mean_pressure_N_per_mm2': 0.3, "
     "'velocity_mm_per_s': 300.0, 'distance_mm': 1.0}})\n"
 )
@@ -32,18 +32,18 @@ KINDS = {
         lambda: {
             "p_N_per_mm2": random(0.1, 0.5), "v_mm_per_s": random(1, 300), "mu": random(0.5, 1)
         },
-        "from calibration.friction_data import read_friction as read",
+        "from calibration.friction.data import read_friction as read",
     ),
     "hyperelastic": (
         lambda: {
             "stretch": random(1.2, 2.0), "nominal_stress_N_per_mm2": random(0.3, 1.0),
             "mode": "uniaxial",
         },
-        "from calibration.hyperelastic import select_data as read",
+        "from calibration.rubber.hyperelastic import select_data as read",
     ),
     "shift factors": (
         lambda: {"T_C": random(-20, 80), "log10_aT": random(-3, 3)},
-        "from calibration.tables import read_table\n"
+        "from calibration.data.tables import read_table\n"
         "read = lambda path: read_table(path, ('T_C',)).numbers('log10_aT')",
     ),
     "sweeps": (
@@ -59,7 +59,7 @@ KINDS = {
             "mean_pressure_N_per_mm2": np.repeat([0.1, 0.2, 0.3, 0.4], ROWS // 4),
             "v_mm_per_s": 300, "T_max_C": random(30, 50),
         },
-        CASE + "from calibration.partition_data import read_partition_data\n"
+        CASE + "from calibration.partition.data import read_partition_data\n"
         "read = lambda path: read_partition_data(path, case)",
     ),
     "conductance": (
@@ -67,8 +67,8 @@ KINDS = {
             "time_s": np.arange(ROWS) * 0.01, "heater_power_W": 10,
             "C1_C": 20 + np.arange(ROWS) * 1e-5, "E1_C": 20 + np.arange(ROWS) * 1e-6,
         },
-        "from calibration.conductance import read_heating_record\n"
-        "from calibration.heating_rig import HeatingRig\n"
+        "from calibration.conductance.fit import read_heating_record\n"
+        "from calibration.conductance.heating_rig import HeatingRig\n"
         "read = lambda path: read_heating_record(path, HeatingRig())",
     ),
     "measured tests": (

@@ -8,15 +8,16 @@ import pandas as pd
 import pytest
 
 import treadfem
-from calibration import commands, simulation_store
-from calibration.conductance import synthetic_heating_record
+from calibration import commands
+from calibration.conductance.fit import synthetic_heating_record
+from calibration.conductance.heating_rig import HeatingRig
 from calibration.datasets import dataset_path
-from calibration.heating_rig import HeatingRig
+from calibration.partition import simulation_store
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synthetic_sweeps
 from contact import HuemerFriction
 from fem.simulate import simulate
 from materials import WLF
-from tests.calibration.made_up_slides import RIGID
+from tests.calibration.partition.made_up_slides import RIGID
 
 
 def run(words):

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import treadfem
-from calibration.conductance import synthetic_heating_record
-from calibration.heating_rig import HeatingRig
+from calibration.conductance.fit import synthetic_heating_record
+from calibration.conductance.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction
 from contact import HuemerFriction
 from fem import Case, simulate

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 import treadfem
-from fem.case import Case
+from fem.case.case import Case
 from materials import WLF, MooneyRivlin
 
 RUBBER = MooneyRivlin(C10=0.31, C01=0.07)

@@ -11,12 +11,12 @@ import pandas as pd
 import pytest
 
 import treadfem
-from calibration.conductance import synthetic_heating_record
-from calibration.heating_rig import HeatingRig
+from calibration.conductance.fit import synthetic_heating_record
+from calibration.conductance.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction
 from contact import HuemerFriction
 from materials import WLF
-from tests.calibration.made_up_slides import RIGID
+from tests.calibration.partition.made_up_slides import RIGID
 
 ROOT = Path(__file__).parents[2]
 

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from calibration import DataError, fit_wlf, shift_sweeps
-from calibration.master_curve import vertical_shift
+from calibration.shifting.master_curve import vertical_shift
 from calibration.synthetic import synthetic_sweeps
 from materials import WLF
 

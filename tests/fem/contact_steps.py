@@ -6,10 +6,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fem import newton
-from fem.elements import Q1P0Elements
-from fem.mechanics import BlockMechanics, StepLoad
-from fem.state import MechanicalState
-from fem.step_control import StepController, StepPlan, landed
+from fem.mechanics.elements import Q1P0Elements
+from fem.mechanics.state import MechanicalState
+from fem.mechanics.step import BlockMechanics, StepLoad
+from fem.stepping.step_control import StepController, StepPlan, landed
 from materials import compound
 from tests.fem.small_blocks import uniform_block
 

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
-from fem.elements import Q1P0Elements, tangent_entries
-from fem.mesh import Grading, block_mesh
+from fem.mechanics.elements import Q1P0Elements, tangent_entries
+from fem.mesh.block import Grading, block_mesh
 
 UNIFORM = 1e9
 

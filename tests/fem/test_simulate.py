@@ -5,9 +5,9 @@ import pytest
 
 from contact import HeatPartition
 from fem import Case, simulate
-from fem.columns import HISTORY, SUMMARY, SURFACE
-from fem.model_parts import mesh_of
-from fem.results import Result
+from fem.results.columns import HISTORY, SUMMARY, SURFACE
+from fem.results.result import Result
+from fem.stepping.model_parts import mesh_of
 
 COULOMB = {"law": "coulomb", "mu": 0.5, "wlf": False}
 HUEMER = {"law": "huemer"}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from fem.case import Case
-from fem.results import Result
+from fem.case.case import Case
+from fem.results.result import Result
 from tests.made_up_result import made_up_result
 from validation.sweeps.study import StudyCase
 from validation.sweeps.study_runs import StudyRun

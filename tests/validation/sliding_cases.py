@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fem.case import Case
+from fem.case.case import Case
 
 
 def sliding_case(nx=8, ny=4, height=8.0, **overrides) -> Case:

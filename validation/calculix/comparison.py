@@ -29,8 +29,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fem.case import Case
-from fem.results import Result
+from fem.case.case import Case
+from fem.results.result import Result
 from fem.simulate import simulate
 from validation.calculix.export_deck import DeckOptions, write_deck
 from validation.calculix.results import deck_history, read_dat

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem.case import Case
-from fem.mesh import BlockMesh
+from fem.case.case import Case
+from fem.mesh.block import BlockMesh
 from validation.calculix.deck_material import numbers
 
 #: Deck time of pressing [-].

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.mesh import BlockMesh
+from fem.mesh.block import BlockMesh
 from validation.calculix.deck_material import numbers
 
 FloatArray = NDArray[np.float64]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact.friction import ExponentialFriction, HuemerFriction
-from fem.results import Result
+from fem.results.result import Result
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Hyperelastic
 from validation.drawing.state_panels import reached

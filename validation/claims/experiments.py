@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from fem.results import Result
+from fem.results.result import Result
 from validation.claims.evidence import Evidence, UnfinishedError
 
 Changes = Mapping[str, Mapping[str, Any]]

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import erfc
 
-from fem.results import Result
+from fem.results.result import Result
 from validation.claims import experiments
 from validation.claims.claim import Claim, Finding, claim, unchecked
 from validation.claims.evidence import Evidence

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from fem.case_rubber import DEFAULT_COMPOUND
-from fem.results import Result
+from fem.case.rubber import DEFAULT_COMPOUND
+from fem.results.result import Result
 from validation.claims import experiments
 from validation.claims.claim import Claim, Finding, claim
 from validation.claims.evidence import HUEMER, Evidence, UnfinishedError

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fem.results import Result
+from fem.results.result import Result
 from validation.claims import experiments
 from validation.claims.claim import Claim, Finding, claim, unchecked
 from validation.claims.evidence import EXPONENTIAL, HUEMER, LAWS, Evidence, Point

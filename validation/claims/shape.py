@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from fem.results import Result
-from fem.snapshot import FloatArray
-from fem.surface_profile import EDGE_ZONE
+from fem.results.result import Result
+from fem.results.snapshot import FloatArray
+from fem.results.surface_profile import EDGE_ZONE
 from validation.drawing.field_panels import BlockState
 from validation.drawing.state_panels import last_state
 from validation.paper.fig9 import contour

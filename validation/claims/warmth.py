@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem.results import Result
-from fem.snapshot import FloatArray
-from fem.surface_profile import interior_peak
+from fem.results.result import Result
+from fem.results.snapshot import FloatArray
+from fem.results.surface_profile import interior_peak
 from validation.claims.shape import front_face_nodes
 from validation.drawing.block_drawing import cell_areas
 from validation.drawing.state_panels import last_state

@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fem.case import Case
-from fem.columns import HISTORY
-from fem.results import HISTORY_FILE, read_summary, read_table
+from fem.case.case import Case
+from fem.results.columns import HISTORY
+from fem.results.result import HISTORY_FILE, read_summary, read_table
 from validation.sweeps.study import StudyCase, read_study
 from validation.sweeps.sweep_case import RUNS_FOLDER
 
@@ -54,7 +54,7 @@ def force_at(history: pd.DataFrame, distances: NDArray[np.float64]) -> NDArray[n
     Parameters
     ----------
     history : DataFrame
-        Columns of `fem.columns.HISTORY`.
+        Columns of `fem.results.columns.HISTORY`.
     distances : (n,) float array
         Motions [mm].
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from fem.atomic_files import write_text
+from fem.files.atomic import write_text
 from validation.convergence.onset import swept_runs
 from validation.convergence.table import CONVERGENCE, ONSET, convergence_table, onset_table
 from validation.convergence.text import convergence_text, onset_text

@@ -12,7 +12,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from fem.snapshot import BlockGeometry, FloatArray, Snapshot
+from fem.results.snapshot import BlockGeometry, FloatArray, Snapshot
 from validation.drawing.block_drawing import (
     Window,
     cell_areas,

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from fem.bottom_history import BottomHistory
+from fem.results.bottom_history import BottomHistory
 from validation.drawing.style import BLUE, GREY, ORANGE, PAGE_WIDTH, STRESS_MAP, new_figure, styled
 
 FloatArray = NDArray[np.float64]

@@ -14,7 +14,7 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from fem.atomic_files import replacing
+from fem.files.atomic import replacing
 
 _P = ParamSpec("_P")
 _R = TypeVar("_R")

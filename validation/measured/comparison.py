@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from calibration.errors import DataError
-from fem.case import Case
-from fem.case_errors import CaseError, describe
-from fem.columns import SURFACE
-from fem.outcome import OK
-from fem.results import (
+from calibration.data.errors import DataError
+from fem.case.case import Case
+from fem.case.errors import CaseError, describe
+from fem.results.columns import SURFACE
+from fem.results.outcome import OK
+from fem.results.result import (
     CASE_FILE,
     SUMMARY_CSV,
     SUMMARY_JSON,

@@ -19,8 +19,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.tables import Table, read_table
-from fem.surface_profile import excess_area, interior_peak
+from calibration.data.tables import Table, read_table
+from fem.results.surface_profile import excess_area, interior_peak
 
 FloatArray = NDArray[np.float64]
 
@@ -143,7 +143,7 @@ def _profiles(table: Table) -> Measurements:
 
 
 def evaluated(profile: Profile, T_0_C: float = START_C) -> dict[str, float]:
-    """T_max and A_T of a profile, by the rules of the simulation (`fem.surface_profile`)."""
+    """T_max and A_T of a profile, by the rules of `fem.results.surface_profile`."""
     return {
         "T_max_C": interior_peak(profile.X_mm, profile.T_C).T_max_C,
         "A_T_K_mm": excess_area(profile.X_mm, profile.T_C, T_0_C),

@@ -10,15 +10,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from calibration.conductance import (
+from calibration.conductance.fit import (
     CONDUCTANCE,
     RigPrediction,
     fit_conductance,
     read_heating_record,
     synthetic_heating_record,
 )
-from calibration.fit_core import FitResult
-from calibration.heating_rig import HeatingRig, RigModel
+from calibration.conductance.heating_rig import HeatingRig, RigModel
+from calibration.fitting.core import FitResult
 from validation.drawing.style import (
     BLACK,
     CURVES,

@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from fem.snapshot import FloatArray
+from fem.results.snapshot import FloatArray
 from validation.drawing.block_drawing import (
     Window,
     draw_outline,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.case import Case
-from fem.results import Result
+from fem.case.case import Case
+from fem.results.result import Result
 from validation.sweeps.study import STUDIES
 from validation.sweeps.study_runs import holds, read_run, simulate_missing
 

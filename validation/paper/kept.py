@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 
 import calibration
 import validation
-from fem.atomic_files import write_text
-from fem.program_version import program_version
+from fem.files.atomic import write_text
+from fem.files.program_version import program_version
 
 _FOLDERS = tuple(Path(str(package.__file__)).parent for package in (calibration, validation))
 _SUFFIXES = {".py", ".toml", ".csv", ".html"}

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from calibration.cycles import last_full_cycle
+from calibration.rubber.cycles import last_full_cycle
 from materials.compounds import compound
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.style import BLACK, GREY

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fem.case import Case
-from fem.case_errors import CaseError
-from fem.results import CASE_FILE, read_summary
+from fem.case.case import Case
+from fem.case.errors import CaseError
+from fem.results.result import CASE_FILE, read_summary
 from validation.paper.introductory import introductory_case
 
 #: Results that are shown: key of the summary to its name, unit and format.

@@ -9,7 +9,7 @@ from datetime import datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from fem.program_version import program_version
+from fem.files.program_version import program_version
 
 #: Packages whose version decides numbers or pictures.
 PACKAGES = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.atomic_files import write_text
+from fem.files.atomic import write_text
 from validation.drawing.style import save
 from validation.sensitivity.table import sensitivity_table
 from validation.sensitivity.text import sensitivity_text

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.case import Case
-from fem.cost import duration, estimated_cost
+from fem.case.case import Case
+from fem.stepping.cost import duration, estimated_cost
 from validation.sweeps.study import number_of_cases, some_cases
 
 #: A study with more cases is not begun without being asked for.

@@ -19,9 +19,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
-from fem.case import Case
-from fem.case_errors import CaseError, describe, suggestion
-from fem.case_reading import read_toml
+from fem.case.case import Case
+from fem.case.errors import CaseError, describe, suggestion
+from fem.case.reading import read_toml
 
 #: The study files of the paper's figures.
 STUDIES = Path(__file__).parents[1] / "studies"

@@ -10,10 +10,10 @@ from typing import Any
 
 import pandas as pd
 
-from fem.case import Case
-from fem.case_errors import CaseError
-from fem.program_version import program_version
-from fem.results import CASE_FILE, Result, missing_files, read_summary
+from fem.case.case import Case
+from fem.case.errors import CaseError
+from fem.files.program_version import program_version
+from fem.results.result import CASE_FILE, Result, missing_files, read_summary
 from validation.sweeps.study import StudyCase, read_study
 from validation.sweeps.sweep_case import FAILED, FINAL, SweepTask, forget
 from validation.sweeps.sweep_progress import SweepBar, SweepProgress

@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
-from fem.case_errors import CaseError
-from fem.cost import refuse_unaffordable
-from fem.output_folder import output_folder
-from fem.program_version import program_version
-from fem.results import SUMMARY_CSV
+from fem.case.errors import CaseError
+from fem.files.program_version import program_version
+from fem.results.output_folder import output_folder
+from fem.results.result import SUMMARY_CSV
+from fem.stepping.cost import refuse_unaffordable
 from validation.sweeps.size import MANY_CASES, size_of_study
 from validation.sweeps.study import StudyCase, number_of_cases, read_study
 from validation.sweeps.sweep_case import RUNS_FOLDER, SweepTask, finished_outcome, forget

@@ -18,15 +18,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from fem.atomic_files import write_text
-from fem.case import Case
-from fem.checkpoint import CHECKPOINT_FILE, remove_checkpoint
-from fem.machine_faults import cause, one_line
-from fem.outcome import INTERRUPTED, NOT_CONVERGED, OK
-from fem.output_folder import output_folder
-from fem.program_version import program_version
-from fem.results import CASE_FILE, FIGURES_FOLDER, RUN_FILES, missing_files, read_summary
-from fem.resume import gone_on_with
+from fem.case.case import Case
+from fem.files.atomic import write_text
+from fem.files.machine_faults import cause, one_line
+from fem.files.program_version import program_version
+from fem.results.checkpoint import CHECKPOINT_FILE, remove_checkpoint
+from fem.results.outcome import INTERRUPTED, NOT_CONVERGED, OK
+from fem.results.output_folder import output_folder
+from fem.results.result import CASE_FILE, FIGURES_FOLDER, RUN_FILES, missing_files, read_summary
+from fem.results.resume import gone_on_with
 from fem.simulate import simulate
 
 RUNS_FOLDER = "runs"

@@ -9,10 +9,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from fem import spreadsheet
-from fem.atomic_files import write_text
-from fem.columns import SUMMARY
-from fem.results import SUMMARY_CSV, joined
+from fem.files import spreadsheet
+from fem.files.atomic import write_text
+from fem.results.columns import SUMMARY
+from fem.results.result import SUMMARY_CSV, joined
 from validation.sweeps.study import StudyCase
 from validation.sweeps.sweep_case import CaseOutcome, SweepTask
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from fem.case_errors import CaseError
+from fem.case.errors import CaseError
 from validation.sweeps.local_pool import LocalPool, local_pool
 from validation.sweeps.sweep_case import FAILED, CaseOutcome, SweepTask, run_task
 

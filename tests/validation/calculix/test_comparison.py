@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 import pytest
 
-from fem.case_sections import Solver
+from fem.case.sections import Solver
 from fem.simulate import simulate
 from tests.validation.sliding_cases import sliding_case
 from validation.calculix.comparison import compare_with_calculix, compared, largest_differences

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fem.model_parts import mesh_of
+from fem.stepping.model_parts import mesh_of
 from tests.validation.sliding_cases import sliding_case
 from validation.calculix.results import contact_length, deck_history, read_dat
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from contact.friction import ExponentialFriction, HuemerFriction
-from fem.results import Result
+from fem.results.result import Result
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import NeoHooke, Yeoh
 from tests.validation.claims.made_up_evidence import (

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from fem.results import Result
+from fem.results.result import Result
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Yeoh
 from tests.made_up_result import made_up_result

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from fem.case import Case
+from fem.case.case import Case
 from fem.simulate import simulate
 from tests.made_up_result import made_up_result
 from tests.validation.made_up_run import made_up_run

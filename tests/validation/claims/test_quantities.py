@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fem.results import Result
+from fem.results.result import Result
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import NeoHooke, Yeoh
 from tests.made_up_result import HEIGHT, LENGTH, made_up_result

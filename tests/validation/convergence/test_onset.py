@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fem.case import Case
+from fem.case.case import Case
 from validation.convergence.onset import (
     damping_force_at,
     force_at,

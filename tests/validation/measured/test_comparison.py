@@ -9,10 +9,10 @@ import pandas as pd
 import pytest
 
 import treadfem
-from calibration.errors import DataError
-from fem.case import Case
-from fem.case_errors import CaseError
-from fem.results import Result
+from calibration.data.errors import DataError
+from fem.case.case import Case
+from fem.case.errors import CaseError
+from fem.results.result import Result
 from tests.made_up_result import made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run

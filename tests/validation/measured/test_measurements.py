@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibration.errors import DataError
-from fem.surface_profile import excess_area, interior_peak
+from calibration.data.errors import DataError
+from fem.results.surface_profile import excess_area, interior_peak
 from validation.measured.measurements import QUANTITIES, evaluated, read_measurements
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "measurements"

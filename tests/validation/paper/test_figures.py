@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fem.results import Result
+from fem.results.result import Result
 from fem.simulate import mesh_of, simulate
 from tests.made_up_result import made_up_case, made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps

@@ -7,8 +7,8 @@ import itertools
 import numpy as np
 import pytest
 
-from calibration.conductance import fit_conductance, synthetic_heating_record
-from calibration.heating_rig import HeatingRig
+from calibration.conductance.fit import fit_conductance, synthetic_heating_record
+from calibration.conductance.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_dumbbell_cycles
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from fem.case_errors import CaseError
+from fem.case.errors import CaseError
 from validation.report.cells import is_number, read_cells, short
 
 

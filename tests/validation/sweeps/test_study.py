@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from fem.case_errors import CaseError
+from fem.case.errors import CaseError
 from validation.paper.introductory import introductory_case
 from validation.sweeps.size import size_of_study
 from validation.sweeps.study import STUDIES, number_of_cases, read_study, some_cases
@@ -79,7 +79,7 @@ def test_studies_of_the_paper_resolve(name, count):
 
 
 def test_the_base_of_the_studies_is_the_introductory_example():
-    from fem.case import Case
+    from fem.case.case import Case
 
     assert introductory_case() == Case.from_toml("examples/introductory.toml")
 

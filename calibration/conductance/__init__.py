@@ -1,0 +1,1 @@
+"""Identification of the gap conductance from the static heating test."""

@@ -1,0 +1,1 @@
+"""Measured tables: from bytes to checked rows, with an account of what became of each."""

@@ -1,0 +1,1 @@
+"""Fits of friction laws to measured coefficients."""

@@ -1,0 +1,1 @@
+"""Identification of the heat partition by resimulating sliding blocks."""

@@ -1,0 +1,1 @@
+"""Fits of hyperelastic energies to stress-stretch tests."""

@@ -1,0 +1,1 @@
+"""Frequency sweeps and the master curve that they are shifted onto."""

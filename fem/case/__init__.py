@@ -1,0 +1,1 @@
+"""The case: what a simulation needs to know, read from TOML, checked, frozen, written again."""

@@ -1,0 +1,168 @@
+"""The [friction] section: law, floors and the WLF shift of the sliding velocity."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+
+from contact.friction import (
+    CoulombFriction,
+    ExponentialFriction,
+    FrictionLaw,
+    HuemerFriction,
+    ThermalFriction,
+)
+from fem.case.base import (
+    Celsius,
+    Constant,
+    Exponent,
+    Factor,
+    NotNegative,
+    Positive,
+    Section,
+    Within,
+    refuse,
+    refuse_sentence,
+)
+from fem.case.errors import describe
+from fem.case.window import ContactWindow
+from materials.plausible import FRICTION, TEMPERATURE, WLF_D1, WLF_D2
+from materials.wlf import WLF
+
+_Mu = Annotated[NotNegative | None, Within(FRICTION)]
+_D1 = Annotated[Positive, Within(WLF_D1)]
+_D2 = Annotated[Positive, Within(WLF_D2)]
+_Reference = Annotated[Celsius, Within(TEMPERATURE)]
+_PressureFloor = Annotated[Positive, Field(ge=1e-9, le=10.0)]
+_Memory = Annotated[NotNegative, Field(le=100.0)]
+_SpeedFloor = Annotated[Positive, Field(ge=1e-9, le=1e5)]
+
+LAW_CLASSES: dict[str, type[FrictionLaw]] = {
+    "huemer": HuemerFriction,
+    "exponential": ExponentialFriction,
+    "coulomb": CoulombFriction,
+}
+
+
+def _parameters(law: type[FrictionLaw]) -> dict[str, float | None]:
+    """Parameters of a law with their defaults (None: must be given), floors left out."""
+    floors = {item.name for item in dataclasses.fields(FrictionLaw)}
+    return {
+        item.name: None if item.default is dataclasses.MISSING else item.default
+        for item in dataclasses.fields(law)
+        if item.name not in floors
+    }
+
+
+#: Parameters of each law with the paper's Table 2 as defaults.
+LAWS = {name: _parameters(law) for name, law in LAW_CLASSES.items()}
+ALL_PARAMETERS = tuple(key for law in LAWS.values() for key in law)
+DEFAULT_LAW = "huemer"
+
+
+class Friction(Section):
+    """Friction between the block and the road (p in N/mm^2, v in mm/s)."""
+
+    law: Literal["huemer", "exponential", "coulomb"] = Field(
+        "huemer", description='"huemer", eq. (6); "exponential", eq. (5); "coulomb"'
+    )
+    alpha: Constant | None = Field(None, description="Huemer, factor of p^(n-1)")
+    beta: Constant | None = Field(None, description="Huemer, pressure-independent part [-]")
+    n: Exponent | None = Field(None, description="Huemer, exponent of the pressure plus one [-]")
+    inverse_m: Exponent | None = Field(
+        None, description="Huemer, 1/m, exponent of the velocity [-]"
+    )
+    a: Constant | None = Field(None, description="Huemer, denominator, constant [-]")
+    b: Constant | None = Field(None, description="Huemer, denominator, factor of v^(-1/m)")
+    c: Constant | None = Field(None, description="Huemer, denominator, factor of v^(-2/m)")
+    A: Factor | None = Field(None, description="exponential law, factor")
+    B: Exponent | None = Field(None, description="exponential law, exponent of the pressure [-]")
+    C: Exponent | None = Field(None, description="exponential law, exponent of the velocity [-]")
+    mu: _Mu = Field(None, description="Coulomb's constant friction coefficient [-]")
+    wlf: bool = Field(True, description="shift the velocity with the surface temperature, eq. (7)")
+    d1: _D1 = Field(43.1, description="WLF constant [-]")
+    d2_K: _D2 = Field(509.4, description="WLF constant [K]")
+    T_ref_C: _Reference = Field(20.0, description="temperature the law was measured at [deg C]")
+    wlf_T_ref_C: Annotated[Celsius | None, Within(TEMPERATURE)] = Field(
+        None, description="temperature d1 and d2_K refer to [deg C]; T_ref_C where left out"
+    )
+    p_min_N_per_mm2: _PressureFloor = Field(1e-3, description="pressure floor of the law [N/mm^2]")
+    v_min_mm_per_s: _SpeedFloor = Field(1.0, description="velocity floor of the law [mm/s]")
+
+    memory_mm: _Memory = Field(
+        0.3,
+        description="slip over which the coefficient follows a change of speed [mm]; 0: at once",
+    )
+    window: ContactWindow | None = Field(
+        None, description="ranges the law was fitted to; a run says what leaves them"
+    )
+    rubber_on_rubber_mu: Annotated[NotNegative, Within(FRICTION)] = Field(
+        1.0, description="Coulomb's coefficient where the block touches itself [-]"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _parameters_of_the_law(cls, data: Any) -> Any:
+        if not isinstance(data, dict):
+            return data
+        law = data.get("law", DEFAULT_LAW)
+        if not isinstance(law, str) or law not in LAWS:
+            return data
+        for key in ALL_PARAMETERS:
+            if data.get(key) is not None and key not in LAWS[law]:
+                refuse(
+                    key,
+                    describe(data[key]),
+                    f'only parameters of law = "{law}": {", ".join(LAWS[law])}',
+                )
+        filled = {**LAWS[law], **{k: v for k, v in data.items() if v is not None}}
+        for key, value in filled.items():
+            if value is None:
+                refuse(key, "nothing", f'a number: law = "{law}" needs {key}')
+        return filled
+
+    @model_validator(mode="after")
+    def _law_exists(self) -> Friction:
+        try:
+            self.law_object()
+        except ValueError as error:
+            refuse_sentence("law", self.law, error)
+        return self
+
+    def plain_law(self) -> FrictionLaw:
+        """Build the law without the temperature shift."""
+        floors = {"p_min": self.p_min_N_per_mm2, "v_min": self.v_min_mm_per_s}
+        parameters = {key: getattr(self, key) for key in LAWS[self.law]}
+        return LAW_CLASSES[self.law](**parameters, **floors)
+
+    def law_object(self) -> ThermalFriction:
+        """Build the law mu(p, v, T) with its WLF shift."""
+        shift = self.shift() if self.wlf else None
+        return ThermalFriction(
+            law=self.plain_law(), wlf=shift, T_ref_C=self.T_ref_C, memory_mm=self.memory_mm
+        )
+
+    def shift(self) -> WLF:
+        """Build the WLF shift for the temperature of the law, whatever its constants refer to."""
+        given = WLF(d1=self.d1, d2_K=self.d2_K)
+        if self.wlf_T_ref_C is None:
+            return given
+        return given.rebased(self.wlf_T_ref_C, self.T_ref_C)
+
+    @property
+    def pole_C(self) -> float:
+        """Temperature at which the WLF shift ends [deg C]."""
+        return (self.T_ref_C if self.wlf_T_ref_C is None else self.wlf_T_ref_C) - self.d2_K
+
+    def described(self) -> str:
+        """The law and its temperatures in one line, for the log of a run."""
+        text = f"friction: law {self.law} at {self.T_ref_C:g} deg C"
+        if not self.wlf:
+            return f"{text}, no WLF shift"
+        shift = self.shift()
+        text += f", WLF shift d1 = {shift.d1:.6g}, d2 = {shift.d2_K:.6g} K there"
+        if self.wlf_T_ref_C in (None, self.T_ref_C):
+            return text
+        return f"{text} (d1 = {self.d1:g}, d2 = {self.d2_K:g} K at {self.wlf_T_ref_C:g} deg C)"

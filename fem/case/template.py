@@ -1,0 +1,38 @@
+"""The commented case file that `treadfem template` prints."""
+
+from __future__ import annotations
+
+from fem.case.case import Case
+
+_HEADING = """\
+A case of treadfem: one sliding event of one rubber tread block. It runs as it is:
+    treadfem run case.toml -o results/case
+    treadfem check case.toml        (checks it and prints it resolved)
+The numbers are those of the paper's introductory example. Everything but [loading] has these
+values as defaults and may be left out.
+
+Instead of a compound, [rubber] takes a model with its constants:
+    model = "neo-hooke"       G_N_per_mm2
+    model = "mooney-rivlin"   C10_N_per_mm2, C01_N_per_mm2
+    model = "yeoh"            C10_N_per_mm2, C20_N_per_mm2, C30_N_per_mm2
+    model = "van-der-waals"   G_N_per_mm2, lambda_m, a, beta
+    model = "arruda-boyce"    C1_N_per_mm2, lambda_m
+    model = "ogden"           mu_N_per_mm2 and alpha, arrays with an entry per term
+[friction] takes law = "exponential" with A, B, C, or law = "coulomb" with mu.
+[rubber], [friction] and [heat] also take parameters = "file.toml", the result of a calibration;
+a relative name is relative to this file, and keys given here win over those given there.
+[block] mesh also takes {cells_x = 80, cells_y = 36, smallest_x_mm = 0.12, smallest_y_mm = 0.04}."""
+
+
+def case_template() -> str:
+    """Return a commented case file, ready to run."""
+    case = Case.from_dict(
+        {
+            "loading": {
+                "mean_pressure_N_per_mm2": 0.25,
+                "velocity_mm_per_s": 300.0,
+                "distance_mm": 120.0,
+            }
+        }
+    )
+    return case.to_toml(_HEADING)

@@ -1,0 +1,1 @@
+"""Files, streams and signals: what a run has to do with the machine, and nothing of physics."""

@@ -1,0 +1,1 @@
+"""Heat in the block and the road, exchanged between them and radiated."""

@@ -1,0 +1,131 @@
+"""What goes into the heat of a step, and what comes out of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem.heat.road import RoadState
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+def _no_nodes() -> IntArray:
+    return np.empty(0, dtype=np.int64)
+
+
+def _no_values() -> FloatArray:
+    return np.empty(0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatLoad:
+    """What one accepted mechanics step means for the heat.
+
+    Attributes
+    ----------
+    dt : float
+        Duration of the step [s].
+    sweep : float
+        Displacement of the platen over the road during the step, signed [mm].
+    displacement : (n, 2) float array
+        Nodal displacement at the end of the step in the platen's frame [mm].
+    contact_nodes : (m,) int array
+        Nodes in contact with the road.
+    power : (m,) float array
+        Frictional heat of each contact node per mm depth, kappa mu lambda |w| [mJ/s].
+    conductance : (m,) float array
+        Gap conductance times tributary length of each contact node [N/(s K)].
+    extra_nodes, extra_power : (k,) int array, (k,) float array
+        Further heat sources (friction of the block on itself) [mJ/s].
+    """
+
+    dt: float
+    sweep: float
+    displacement: FloatArray
+    contact_nodes: IntArray
+    power: FloatArray
+    conductance: FloatArray
+    extra_nodes: IntArray = field(default_factory=_no_nodes)
+    extra_power: FloatArray = field(default_factory=_no_values)
+
+    def __post_init__(self) -> None:
+        if not self.dt > 0.0:
+            raise ValueError(f"heat step of dt = {self.dt} s, expected above 0")
+        m = len(self.contact_nodes)
+        if len(self.power) != m or len(self.conductance) != m:
+            raise ValueError(
+                f"{m} contact nodes with {len(self.power)} powers and "
+                f"{len(self.conductance)} conductances, expected as many"
+            )
+        if len(self.extra_nodes) != len(self.extra_power):
+            raise ValueError(
+                f"{len(self.extra_nodes)} extra nodes with {len(self.extra_power)} powers, "
+                "expected as many"
+            )
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatState:
+    """Temperatures of block and road, and the heat balance since the start.
+
+    Attributes
+    ----------
+    T : (n,) float array
+        Temperature of the block's nodes [C].
+    road : RoadState
+        Temperature of the road's window.
+    displacement : (n, 2) float array
+        Nodal displacement at the end of the last step [mm].
+    conduction_displacement : (n, 2) float array
+        Displacement for which the conduction matrix in use was made [mm].
+    flow : (n,) float array
+        Heat flow from the block's nodes to the road in the last sub-step [mJ/s] per mm depth.
+    generated, radiated, left : float
+        Heat made, heat lost by radiation of block and road, and heat in the road columns that
+        were dropped far behind the block [mJ/mm].
+    in_block, in_road : float
+        Heat stored above the initial temperature [mJ/mm].
+    sub_steps, exchange_iterations : int
+        Totals since the start.
+    """
+
+    T: FloatArray
+    road: RoadState
+    displacement: FloatArray
+    conduction_displacement: FloatArray
+    flow: FloatArray
+    generated: float = 0.0
+    in_block: float = 0.0
+    in_road: float = 0.0
+    radiated: float = 0.0
+    left: float = 0.0
+    sub_steps: int = 0
+    exchange_iterations: int = 0
+
+    @property
+    def imbalance(self) -> float:
+        """Heat made minus heat found; zero up to rounding [mJ/mm]."""
+        return self.generated - self.in_block - self.in_road - self.radiated - self.left
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoadField:
+    """Road temperatures for output.
+
+    Attributes
+    ----------
+    points : (nr, 2) float array
+        Nodes in the platen's frame [mm].
+    cells : (ner, 4) int array
+        Counter-clockwise corner nodes.
+    temperature : (nr,) float array
+        Temperature of the nodes [C].
+    """
+
+    points: FloatArray
+    cells: IntArray
+    temperature: FloatArray

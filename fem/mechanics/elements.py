@@ -1,0 +1,353 @@
+"""Q1P0 elements of nearly incompressible rubber in plane strain: residual and tangent.
+
+The isochoric energy is integrated with 2 x 2 points; the volumetric energy K/2 (Jbar - 1)^2 uses
+the mean dilatation ``Jbar = v_e/V_e`` of the element [1]_. The element pressure ``p`` is an
+unknown of its own, condensed on the element and updated with the *linearised* pressure law [2]_:
+the geometric stiffness then does not see the large spurious pressures of an intermediate iterate.
+
+All kernels run over all elements at once. With ``G_a`` the reference gradients of the shape
+functions, the tangent is ``K_aibj = sum_q w A_imjn G_am G_bn`` with ``A = dP/dF``. The products
+``G_am G_bn`` never change, so the whole sum is one small matrix product per element.
+
+References
+----------
+.. [1] Simo, J. C., Taylor, R. L., Pister, K. S., Comput. Methods Appl. Mech. Eng. 51 (1985)
+   177-208.
+.. [2] Simo, J. C., Taylor, R. L., Comput. Methods Appl. Mech. Eng. 85 (1991) 273-310.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from skfem import Basis, ElementQuad1, ElementVector
+
+from fem.mesh.block import BlockMesh
+from materials.hyperelastic import EnergyDerivatives, Hyperelastic
+from materials.plane_strain import cauchy_stress
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Elements whose tangents are computed at once, so that intermediate arrays stay in the cache.
+BATCH = 1024
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kinematics:
+    """Deformation of the elements.
+
+    Attributes
+    ----------
+    F11, F12, F21, F22 : (ne, 4) float arrays
+        Deformation gradient at the Gauss points [-].
+    Jbar : (ne,) float array
+        Ratio of deformed to reference area [-].
+    area_gradient : (ne, 4, 2) float array
+        Gradient of the deformed area with respect to the corners [mm].
+    """
+
+    F11: FloatArray
+    F12: FloatArray
+    F21: FloatArray
+    F22: FloatArray
+    Jbar: FloatArray
+    area_gradient: FloatArray
+
+    @cached_property
+    def J(self) -> FloatArray:
+        """Determinant of F at the Gauss points, (ne, 4) [-]."""
+        return self.F11 * self.F22 - self.F12 * self.F21
+
+    @cached_property
+    def I1(self) -> FloatArray:
+        """First invariant F:F + 1, (ne, 4) [-]."""
+        return self.F11**2 + self.F12**2 + self.F21**2 + self.F22**2 + 1.0
+
+    @cached_property
+    def green_lagrange(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Green-Lagrange strains E11, E22, E12, each (ne, 4) [-]."""
+        return (
+            0.5 * (self.F11**2 + self.F21**2 - 1.0),
+            0.5 * (self.F12**2 + self.F22**2 - 1.0),
+            0.5 * (self.F11 * self.F12 + self.F21 * self.F22),
+        )
+
+    def part(self, cells: slice) -> Kinematics:
+        """Kinematics of some of the elements."""
+        return Kinematics(
+            **{field.name: getattr(self, field.name)[cells] for field in fields(self)}
+        )
+
+    @property
+    def matrix(self) -> FloatArray:
+        """F as (ne, 4, 2, 2)."""
+        rows = [np.stack([self.F11, self.F12], -1), np.stack([self.F21, self.F22], -1)]
+        return np.stack(rows, axis=-2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Viscosity:
+    """Kelvin-Voigt term of one time step: ``S = eta (E - E_n)/dt``.
+
+    Attributes
+    ----------
+    rate : float or (ne, 1) float array
+        eta/dt [N/mm^2].
+    strain_n : tuple of (ne, 4) arrays
+        E11, E22, E12 at the last accepted step.
+    """
+
+    rate: float | FloatArray
+    strain_n: tuple[FloatArray, FloatArray, FloatArray]
+
+    def part(self, cells: slice) -> Viscosity:
+        """The term for some of the elements."""
+        rate = np.asarray(self.rate)
+        rate = rate[cells] if rate.ndim else rate
+        E11, E22, E12 = (E[cells] for E in self.strain_n)
+        return Viscosity(rate=rate, strain_n=(E11, E22, E12))
+
+    def stress(self, kinematics: Kinematics) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Viscous second Piola-Kirchhoff stresses S11, S22, S12 [N/mm^2]."""
+        pairs = zip(kinematics.green_lagrange, self.strain_n, strict=True)
+        S11, S22, S12 = (self.rate * (E - E_n) for E, E_n in pairs)
+        return S11, S22, S12
+
+
+@dataclass(frozen=True, kw_only=True)
+class ElementForces:
+    """Nodal forces of the elements and what the tangent reuses.
+
+    Attributes
+    ----------
+    residual : (ne, 8) float array
+        Internal forces of each element, dofs (node, component) interleaved [N/mm].
+    pressure_residual : (ne,) float array
+        ``U'(Jbar) - p`` [N/mm^2].
+    """
+
+    residual: FloatArray
+    pressure_residual: FloatArray
+    kinematics: Kinematics
+    derivatives: EnergyDerivatives
+    pressure: FloatArray
+
+    def part(self, cells: slice) -> ElementForces:
+        """Forces of some of the elements."""
+        return ElementForces(
+            residual=self.residual[cells], pressure_residual=self.pressure_residual[cells],
+            kinematics=self.kinematics.part(cells),
+            derivatives=EnergyDerivatives(*(W[cells] for W in self.derivatives)),
+            pressure=self.pressure[cells],
+        )  # fmt: skip
+
+
+class Q1P0Elements:
+    """Vectorised Q1P0 kernel on one mesh and one material.
+
+    Parameters
+    ----------
+    mesh : BlockMesh
+        Reference mesh.
+    model : Hyperelastic
+        Isochoric energy.
+    K_bulk : float
+        Bulk modulus [N/mm^2].
+    """
+
+    def __init__(self, mesh: BlockMesh, model: Hyperelastic, K_bulk: float) -> None:
+        self.mesh, self.model, self.K_bulk = mesh, model, K_bulk
+        self.basis = Basis(mesh.mesh, ElementVector(ElementQuad1()), intorder=3)
+        scalar = self.basis.with_element(ElementQuad1())
+        gradients = np.stack([scalar.basis[a][0].grad for a in range(4)])  # (a, I, ne, q)
+        self.weights = np.ascontiguousarray(scalar.dx)
+        self.G = np.ascontiguousarray(gradients.transpose(2, 3, 0, 1))  # (ne, q, a, I)
+        self._G_flat = np.ascontiguousarray(gradients.transpose(2, 0, 3, 1)).reshape(-1, 4, 8)
+        self._GG = np.einsum("eqaI,eqbJ->eqIJab", self.G, self.G).reshape(-1, 16, 16)
+        self.volume = self.weights.sum(axis=1)
+        self.cells = mesh.cells
+        self._X = mesh.points[mesh.cells]
+
+    @cached_property
+    def dofs(self) -> IntArray:
+        """Global dofs (2 node + component) of the elements, (ne, 8)."""
+        return (2 * self.cells[:, :, None] + np.arange(2)).reshape(-1, 8)
+
+    def kinematics(self, u: FloatArray) -> Kinematics:
+        """Deformation of the nodal displacements `u` (n, 2) [mm]."""
+        u_e = u[self.cells]
+        H = np.matmul(u_e.transpose(0, 2, 1), self._G_flat)  # (ne, i, (q, I))
+        H = H.reshape(-1, 2, 4, 2)
+        b = area_gradient(self._X + u_e)
+        area = 0.5 * np.einsum("eai,eai->e", b, self._X + u_e)
+        return Kinematics(
+            F11=1.0 + H[:, 0, :, 0],
+            F12=H[:, 0, :, 1].copy(),
+            F21=H[:, 1, :, 0].copy(),
+            F22=1.0 + H[:, 1, :, 1],
+            Jbar=area / self.volume,
+            area_gradient=b,
+        )
+
+    def largest_gradient(self, u: FloatArray) -> float:
+        """Largest norm of the gradient of nodal displacements `u` (n, 2) at a Gauss point [-]."""
+        H = np.matmul(u[self.cells].transpose(0, 2, 1), self._G_flat)  # (ne, i, (q, I))
+        squares = H[:, 0] ** 2 + H[:, 1] ** 2
+        return float(np.sqrt((squares[:, ::2] + squares[:, 1::2]).max()))
+
+    def admissible(self, kinematics: Kinematics) -> bool:
+        """Whether the energy exists at every Gauss point."""
+        return bool(self.model.admissible(kinematics.I1, kinematics.J).all())
+
+    def forces(
+        self, p: FloatArray, kin: Kinematics, viscosity: Viscosity | None = None
+    ) -> ElementForces:
+        """Internal nodal forces at kinematics `kin` and element pressures `p` (ne,)."""
+        d = self.model.derivatives(kin.I1, kin.J)
+        w = self.weights
+        A11, A22, A12 = 2.0 * w * d.W_1, 2.0 * w * d.W_1, np.zeros_like(w)
+        if viscosity is not None:
+            S11, S22, S12 = viscosity.stress(kin)
+            A11, A22, A12 = A11 + w * S11, A22 + w * S22, w * S12
+        c = w * d.W_J
+        # P w, as rows of F (2 W_1 I + S) + W_J cof F
+        P = np.empty((kin.J.shape[0], 4, 2, 2))
+        P[..., 0, 0] = kin.F11 * A11 + kin.F12 * A12 + c * kin.F22
+        P[..., 0, 1] = kin.F11 * A12 + kin.F12 * A22 - c * kin.F21
+        P[..., 1, 0] = kin.F21 * A11 + kin.F22 * A12 - c * kin.F12
+        P[..., 1, 1] = kin.F21 * A12 + kin.F22 * A22 + c * kin.F11
+        P_flat = P.transpose(0, 1, 3, 2).reshape(-1, 8, 2)
+        residual = np.matmul(self._G_flat, P_flat).reshape(-1, 8)
+        b = kin.area_gradient.reshape(-1, 8)
+        dU_dJ = self.K_bulk * (kin.Jbar - 1.0)
+        return ElementForces(
+            residual=residual + dU_dJ[:, None] * b,
+            pressure_residual=dU_dJ - p,
+            kinematics=kin,
+            derivatives=d,
+            pressure=p,
+        )
+
+    def tangent(self, forces: ElementForces, viscosity: Viscosity | None = None) -> FloatArray:
+        """Element tangents with the condensed pressure [N/mm^2].
+
+        Returns
+        -------
+        (ne, 2, 2, 4, 4) float array
+            Entry ``[e, i, j, a, b]`` is the change of the force on node a along i with the
+            displacement of node b along j; see `tangent_entries` for its place in a matrix.
+        """
+        K = np.empty((len(self.cells), 2, 2, 4, 4))
+        for start in range(0, len(K), BATCH):
+            cells = slice(start, start + BATCH)
+            part = forces.part(cells)
+            viscous = None if viscosity is None else viscosity.part(cells)
+            A = _weighted_stiffness(part, self.weights[cells], viscous)
+            np.matmul(A, self._GG[cells], out=K[cells].reshape(-1, 4, 16))
+            K[cells, 1, 0] = K[cells, 0, 1].transpose(0, 2, 1)
+            b = part.kinematics.area_gradient.transpose(0, 2, 1)
+            c = b * (self.K_bulk / self.volume[cells])[:, None, None]
+            K[cells] += c[:, :, None, :, None] * b[:, None, :, None, :]
+        return K
+
+    def pressure_increment(self, forces: ElementForces, du: FloatArray) -> FloatArray:
+        """Change of the element pressures with `du` (n, 2) by the linearised pressure law."""
+        du_e = du[self.cells].reshape(-1, 8)
+        b = forces.kinematics.area_gradient.reshape(-1, 8)
+        growth = np.einsum("ej,ej->e", b, du_e)
+        return self.K_bulk / self.volume * growth + forces.pressure_residual
+
+    def strain_energy(self, kin: Kinematics) -> float:
+        """Stored energy per depth [mJ/mm]."""
+        W = self.model.derivatives(kin.I1, kin.J).W
+        volumetric = 0.5 * self.K_bulk * (kin.Jbar - 1.0) ** 2
+        return float(np.sum(self.weights * W) + np.sum(self.volume * volumetric))
+
+    def cauchy(self, kin: Kinematics) -> FloatArray:
+        """Volume-averaged Cauchy stresses xx, yy, zz, xy of the cells, (ne, 4) [N/mm^2]."""
+        pressure = (self.K_bulk * (kin.Jbar - 1.0))[:, None]
+        sigma = cauchy_stress(self.model, kin.matrix, pressure)
+        share = self.weights / self.volume[:, None]
+        return np.asarray(np.einsum("eqc,eq->ec", sigma, share))
+
+    def largest_stretch(self, kin: Kinematics) -> FloatArray:
+        """Largest principal stretch in the plane, mean of the Gauss points, (ne,) [-]."""
+        half_sum = 0.5 * (kin.I1 - 1.0)
+        root = np.sqrt(np.maximum(half_sum**2 - kin.J**2, 0.0))
+        share = self.weights / self.volume[:, None]
+        return np.asarray(np.sum(share * np.sqrt(half_sum + root), axis=1))
+
+
+def _weighted_stiffness(
+    forces: ElementForces, weights: FloatArray, viscosity: Viscosity | None
+) -> FloatArray:
+    """Weighted dP_im/dF_jn as (ne, 4, 16): rows ij = 11, 12, 21, 22, columns (q, m, n).
+
+    The row 21 repeats 12; what it leads to is the transpose of that. The element pressure acts on
+    the Hessian of the area, which is the integral of that of J.
+    """
+    kin, d, w = forces.kinematics, forces.derivatives, weights
+    F = ((kin.F11, kin.F12), (kin.F21, kin.F22))
+    cof = ((kin.F22, -kin.F21), (-kin.F12, kin.F11))
+    w_11, w_1J, w_JJ = 4.0 * w * d.W_11, 2.0 * w * d.W_1J, w * d.W_JJ
+    w_J = w * (d.W_J + forces.pressure[:, None])
+    S = np.array([[1.0, 0.0], [0.0, 1.0]])[:, :, None, None] * (2.0 * w * d.W_1)
+    half_F = None
+    if viscosity is not None:
+        S11, S22, S12 = viscosity.stress(kin)
+        S += np.array([[S11, S12], [S12, S22]]) * w
+        half = 0.5 * viscosity.rate * w
+        half_F = [[half * F_im for F_im in row] for row in F]
+    A = np.empty((len(w), 4, 4, 4))
+    for row, i, j in ((0, 0, 0), (1, 0, 1), (3, 1, 1)):
+        left = [w_11 * F[i][m] + w_1J * cof[i][m] for m in (0, 1)]
+        right = [w_1J * F[i][m] + w_JJ * cof[i][m] for m in (0, 1)]
+        dot = 0.0 if half_F is None else half_F[i][0] * F[j][0] + half_F[i][1] * F[j][1]
+        for m, n in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            if i == j and m > n:  # symmetric
+                A[:, row, :, 2 * m + n] = A[:, row, :, 2 * n + m]
+                continue
+            value = left[m] * F[j][n] + right[m] * cof[j][n]
+            if i == j:
+                value += S[m, n]
+            elif m != n:
+                value += w_J if m < n else -w_J
+            if half_F is not None:
+                value += half_F[i][n] * F[j][m]
+                if m == n:
+                    value += dot
+            A[:, row, :, 2 * m + n] = value
+    A[:, 2] = A[:, 1]
+    return A.reshape(-1, 4, 16)
+
+
+def tangent_entries(dofs: IntArray) -> tuple[IntArray, IntArray]:
+    """Row and column dofs of the entries of `Q1P0Elements.tangent`.
+
+    Parameters
+    ----------
+    dofs : (ne, 4, 2) int array
+        Dofs of the corners, by component.
+
+    Returns
+    -------
+    rows, columns : (ne, 2, 2, 4, 4) int arrays
+    """
+    d = dofs.transpose(0, 2, 1)
+    shape = (len(d), 2, 2, 4, 4)
+    rows = np.broadcast_to(d[:, :, None, :, None], shape)
+    return rows, np.broadcast_to(d[:, None, :, None, :], shape)
+
+
+def area_gradient(x: FloatArray) -> FloatArray:
+    """Gradient of the area of quadrilaterals with corners `x` (ne, 4, 2), same shape [mm]."""
+    # Written out, because np.roll copies cost as much as the rest.
+    b = np.empty_like(x)
+    after, before = [1, 2, 3, 0], [3, 0, 1, 2]
+    b[..., 0] = 0.5 * (x[:, after, 1] - x[:, before, 1])
+    b[..., 1] = 0.5 * (x[:, before, 0] - x[:, after, 0])
+    return b

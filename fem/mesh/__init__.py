@@ -1,0 +1,1 @@
+"""The mesh of the block and the node sets of its boundary."""

@@ -1,0 +1,192 @@
+"""Field files for ParaView: VTU by meshio, collected over time in a `.pvd`.
+
+Cell order of VTK's symmetric tensors is XX, YY, ZZ, XY, YZ, XZ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import meshio
+import numpy as np
+from numpy.typing import NDArray
+
+from fem.results.snapshot import BlockGeometry, FloatArray, Snapshot
+
+DISPLACEMENT = "displacement_mm"
+TEMPERATURE = "temperature_C"
+STRESS = "cauchy_stress_N_per_mm2"
+STRESS_COMPONENTS = (
+    "sigma_x_N_per_mm2",
+    "sigma_y_N_per_mm2",
+    "sigma_z_N_per_mm2",
+    "sigma_xy_N_per_mm2",
+)
+STRETCH = "largest_principal_stretch"
+PRESSURE = "volumetric_stress_N_per_mm2"
+TIME = "time_s"
+DISTANCE = "sliding_distance_mm"
+
+#: What lists the field files of a run.
+FIELD_COLLECTIONS = ("block.pvd", "road.pvd")
+
+#: Position of xx, yy, zz, xy in VTK's order.
+_VTK_POSITION = (0, 1, 2, 3)
+
+
+def write_fields(
+    directory: str | Path, geometry: BlockGeometry, snapshots: Sequence[Snapshot]
+) -> None:
+    """Write `block_*.vtu`, `road_*.vtu`, `block.pvd` and `road.pvd` into an existing folder.
+
+    Block points are the reference coordinates (warp by `displacement_mm` to see the deformed
+    block); road points are in the platen's frame, so that both fit together.
+    """
+    directory = Path(directory)
+    times = [snapshot.time_s for snapshot in snapshots]
+    for number, snapshot in enumerate(snapshots):
+        snapshot.check(geometry)
+        _write(directory / _name("block", number), _block_mesh(geometry, snapshot))
+        _write(directory / _name("road", number), _road_mesh(snapshot))
+    for part in ("block", "road"):
+        _write_collection(directory / f"{part}.pvd", part, times)
+
+
+def read_fields(directory: str | Path) -> tuple[BlockGeometry, list[Snapshot]]:
+    """Read what `write_fields` wrote.
+
+    Raises
+    ------
+    ValueError
+        If the folder has no field files, or one of them is not readable.
+    """
+    directory = Path(directory)
+    names = sorted(directory.glob("block_*.vtu"))
+    if not names:
+        raise ValueError(f"{directory} has no field files block_*.vtu (output.vtu = true?)")
+    geometry = None
+    snapshots = []
+    for name in names:
+        block, road = _read(name), _read(name.with_name(name.name.replace("block", "road")))
+        if geometry is None:
+            geometry = BlockGeometry(
+                points=np.ascontiguousarray(block.points[:, :2]), cells=_quads(block)
+            )
+        snapshots.append(_snapshot(block, road))
+    assert geometry is not None
+    return geometry, snapshots
+
+
+def collected(path: str | Path) -> list[str]:
+    """Names of the field files that a `.pvd` lists; one that cannot be there if it is damaged."""
+    try:
+        root = ElementTree.parse(path).getroot()
+    except ElementTree.ParseError:
+        return [f"(listed in the damaged {Path(path).name})"]
+    return [Path(entry.get("file", "?")).name for entry in root.iter("DataSet")]
+
+
+def _name(part: str, number: int) -> str:
+    return f"{part}_{number:04d}.vtu"
+
+
+def _three_dimensional(plane: FloatArray) -> FloatArray:
+    return np.column_stack([plane, np.zeros(len(plane))])
+
+
+def _block_mesh(geometry: BlockGeometry, snapshot: Snapshot) -> meshio.Mesh:
+    stress = snapshot.cauchy_stress
+    tensor = np.zeros((len(stress), 6))
+    tensor[:, _VTK_POSITION] = stress
+    components = {name: stress[:, i] for i, name in enumerate(STRESS_COMPONENTS)}
+    return _mesh(
+        geometry.points,
+        geometry.cells,
+        {
+            DISPLACEMENT: _three_dimensional(snapshot.displacement),
+            TEMPERATURE: snapshot.temperature,
+        },
+        {STRESS: tensor, **components, STRETCH: snapshot.stretch, PRESSURE: snapshot.pressure},
+        {TIME: snapshot.time_s, DISTANCE: snapshot.sliding_distance_mm},
+    )
+
+
+def _road_mesh(snapshot: Snapshot) -> meshio.Mesh:
+    return _mesh(
+        snapshot.road_points,
+        snapshot.road_cells,
+        {TEMPERATURE: snapshot.road_temperature},
+        {},
+        {TIME: snapshot.time_s, DISTANCE: snapshot.sliding_distance_mm},
+    )
+
+
+def _mesh(
+    points: FloatArray,
+    cells: NDArray[Any],
+    point_data: dict[str, FloatArray],
+    cell_data: dict[str, FloatArray],
+    constants: dict[str, float],
+) -> meshio.Mesh:
+    """Build a meshio mesh; constants become cell data, which every VTU reader understands."""
+    per_cell = {name: np.full(len(cells), value) for name, value in constants.items()}
+    return meshio.Mesh(
+        _three_dimensional(points),
+        [("quad", np.asarray(cells, dtype=np.int64))],
+        point_data=point_data,
+        cell_data={name: [values] for name, values in {**cell_data, **per_cell}.items()},
+    )
+
+
+def _write(path: Path, mesh: meshio.Mesh) -> None:
+    mesh.write(path, file_format="vtu")
+
+
+def _write_collection(path: Path, part: str, times: Sequence[float]) -> None:
+    root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
+    collection = ElementTree.SubElement(root, "Collection")
+    for number, time in enumerate(times):
+        ElementTree.SubElement(
+            collection,
+            "DataSet",
+            timestep=repr(float(time)),
+            group="",
+            part="0",
+            file=_name(part, number),
+        )
+    ElementTree.indent(root)
+    ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
+
+
+def _read(path: Path) -> meshio.Mesh:
+    try:
+        # The reader of the format itself: `meshio.read` ends the program on a damaged file.
+        return meshio.vtu.read(str(path))
+    except (OSError, meshio.ReadError, ElementTree.ParseError, ValueError) as error:
+        raise ValueError(f"{path} is not a readable field file ({error})") from None
+
+
+def _quads(mesh: meshio.Mesh) -> NDArray[np.int64]:
+    return np.asarray(mesh.cells_dict["quad"], dtype=np.int64)
+
+
+def _cell(mesh: meshio.Mesh, name: str) -> FloatArray:
+    return np.asarray(mesh.cell_data_dict[name]["quad"], dtype=float)
+
+
+def _snapshot(block: meshio.Mesh, road: meshio.Mesh) -> Snapshot:
+    return Snapshot(
+        time_s=float(_cell(block, TIME)[0]),
+        sliding_distance_mm=float(_cell(block, DISTANCE)[0]),
+        displacement=np.ascontiguousarray(block.point_data[DISPLACEMENT][:, :2]),
+        temperature=np.asarray(block.point_data[TEMPERATURE]),
+        cauchy_stress=np.ascontiguousarray(_cell(block, STRESS)[:, _VTK_POSITION]),
+        stretch=_cell(block, STRETCH),
+        pressure=_cell(block, PRESSURE),
+        road_points=np.ascontiguousarray(road.points[:, :2]),
+        road_cells=_quads(road),
+        road_temperature=np.asarray(road.point_data[TEMPERATURE]),
+    )

@@ -1,0 +1,1 @@
+"""Sparse linear systems: pattern, elimination order, factorisation, iteration."""

@@ -1,0 +1,467 @@
+"""One coupled step: friction coefficient, mechanics, then heat.
+
+The friction coefficient is taken from the state before the step and corrected by an outer fixed
+point (a law that weakens with speed makes a fully implicit coefficient stall: smaller steps then
+make it worse). What remains of the lag is measured. Heat follows the accepted mechanics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.active_set import ContactForces, ContactStatus
+from contact.conductance import GapConductance
+from contact.friction import ThermalFriction
+from contact.overlap import crossing_depth
+from contact.partition import HeatPartition
+from contact.self_contact import (
+    Pairs,
+    dissipation,
+    find_pairs,
+    followed,
+    heat_sources,
+    pair_penetration,
+)
+from fem import newton
+from fem.case.sections import MOST_PASSES
+from fem.heat.model import HeatModel
+from fem.heat.state import HeatLoad, HeatState
+from fem.mechanics.regularisation import SnapDamping
+from fem.mechanics.state import MechanicalState
+from fem.mechanics.step import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
+from fem.stepping.programme import Target
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: 1 W/(m^2 K) in N/(mm s K).
+W_PER_M2K = 1e-3
+#: Lag of the friction force below which no further pass is made [-].
+LAG_TOLERANCE = 1e-3
+#: Deepest penetration of the block into itself in an accepted step, over the local element size.
+PENETRATION_MAX = 0.01
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoadContact:
+    """Contact of the candidates with the road at the end of a step, arrays (m,).
+
+    Attributes
+    ----------
+    status : ContactStatus
+        Open, stick or slip.
+    length : float array
+        Contact length of each node [mm].
+    normal, shear : float arrays
+        Force of the road on the block per depth, upwards and along x [N/mm]; 0 where open.
+    pressure : float array
+        Normal force per contact length, 0 where open [N/mm^2].
+    slip_velocity : float array
+        Velocity over the road, signed [mm/s].
+    remembered_velocity : float array
+        Speed that the friction coefficient knows of, which follows the slip velocity [mm/s].
+    mu : float array
+        Friction coefficient the step was solved with [-].
+    """
+
+    status: ContactStatus
+    length: FloatArray
+    normal: FloatArray
+    shear: FloatArray
+    pressure: FloatArray
+    slip_velocity: FloatArray
+    remembered_velocity: FloatArray
+    mu: FloatArray
+
+    @property
+    def contact_length(self) -> float:
+        """Total contact length [mm]."""
+        return float(self.length[self.status.active].sum())
+
+    @property
+    def mean_slip_velocity(self) -> float:
+        """Slip velocity, signed, weighted by the normal force [mm/s]; 0 without contact."""
+        total = self.normal_force
+        return float(np.sum(self.normal * self.slip_velocity) / total) if total > 0.0 else 0.0
+
+    @property
+    def normal_force(self) -> float:
+        """Normal force on the road [N/mm]."""
+        return float(self.normal.sum())
+
+    @property
+    def mean_pressure(self) -> float:
+        """Normal force over contact length [N/mm^2]; 0 without contact."""
+        length = self.contact_length
+        return max(self.normal_force, 0.0) / length if length > 0.0 else 0.0
+
+    @property
+    def friction_force(self) -> float:
+        """Force of the block on the road along x, positive to the right [N/mm]."""
+        return float(-self.shear.sum())
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoupledState:
+    """Accepted state of block, contact and heat."""
+
+    time: float
+    position: float
+    mechanics: MechanicalState
+    heat: HeatState
+    contact: RoadContact
+    mu: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class AcceptedStep:
+    """A solved step: its start, its end and what was done.
+
+    Attributes
+    ----------
+    before, after : CoupledState
+        States at both ends.
+    target : Target
+        Loads and motion of the step.
+    evaluation : StepEvaluation
+        Nodal forces and kinematics at the end.
+    problem : StepProblem
+        The mechanics problem (velocities, viscous term).
+    iterations, hardest_pass : int
+        Newton iterations of all passes, and of the pass that took most.
+    lag_error : float
+        Relative change of the friction force with the coefficient at the pressures, slip
+        velocities and temperatures of the end of the step [-].
+    power : (m,) float array
+        Frictional power of the candidates, mean over the step [mJ/s].
+    kappa : (m,) float array
+        Share of it that heats the rubber [-].
+    capped : (m,) bool array
+        Where the partition was capped.
+    self_friction : float
+        Friction work of the block on itself in the step [mJ/mm].
+    penetration : float
+        Largest penetration of the block into itself, relative to the local element size [-].
+    """
+
+    before: CoupledState
+    after: CoupledState
+    target: Target
+    evaluation: StepEvaluation
+    problem: StepProblem
+    iterations: int
+    hardest_pass: int
+    lag_error: float
+    power: FloatArray
+    kappa: FloatArray
+    capped: NDArray[np.bool_]
+    self_friction: float = 0.0
+    penetration: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class RejectedStep:
+    """A step without a solution, and why."""
+
+    failure: newton.Failure
+    detail: str
+    iterations: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactLaws:
+    """Friction, heat partition and gap conductance of the interface."""
+
+    friction: ThermalFriction
+    partition: HeatPartition
+    conductance: GapConductance
+
+
+@dataclass(frozen=True, kw_only=True)
+class SelfContact:
+    """Settings of the contact of the block with itself.
+
+    Attributes
+    ----------
+    mu : float
+        Friction coefficient of rubber on rubber [-].
+    stiffness : float
+        Contact modulus [N/mm^2]: force per penetration relative to the local element size.
+    reach : float
+        Search distance [mm].
+    """
+
+    mu: float
+    stiffness: float
+    reach: float
+
+
+class CoupledModel:
+    """Mechanics and heat of one block, advanced step by step.
+
+    Parameters
+    ----------
+    mechanics : BlockMechanics
+        Mechanical equations.
+    heat : HeatModel
+        Heat of block and road.
+    laws : ContactLaws
+        Laws of the interface.
+    damping : SnapDamping, optional
+        Damping of steps that need help; none without it.
+    mean_pressure : float
+        Pressure assumed for nodes that are about to touch the road, and as the mean pressure of
+        the contact in the first step [N/mm^2].
+    friction_passes : int
+        Largest number of passes over the friction coefficient in a step.
+    options : newton.NewtonOptions
+        Limits of the Newton iteration.
+    first_merit : float
+        Merit that suffices in a pass whose friction coefficient is still to be corrected.
+    self_contact : SelfContact, optional
+        Contact of the block with itself; none without it.
+    """
+
+    def __init__(
+        self,
+        mechanics: BlockMechanics,
+        heat: HeatModel,
+        laws: ContactLaws,
+        *,
+        damping: SnapDamping | None = None,
+        mean_pressure: float,
+        friction_passes: int,
+        options: newton.NewtonOptions,
+        first_merit: float = 1.0,
+        self_contact: SelfContact | None = None,
+    ) -> None:
+        self.self_contact, self.damping = self_contact, damping
+        self.mechanics, self.heat, self.laws = mechanics, heat, laws
+        self.mean_pressure, self.friction_passes = mean_pressure, friction_passes
+        self.options = options
+        self.first_options = replace(options, tolerance=max(options.tolerance, first_merit))
+
+    def initial_state(self) -> CoupledState:
+        """Block at rest, just touching the road, at ambient temperature."""
+        mechanics, heat = self.mechanics.initial_state(), self.heat.initial_state()
+        zeros = np.zeros(self.mechanics.candidates.size)
+        contact = RoadContact(
+            status=mechanics.status, length=zeros, normal=zeros, shear=zeros, pressure=zeros,
+            slip_velocity=zeros, remembered_velocity=zeros, mu=zeros,
+        )  # fmt: skip
+        contact = replace(
+            contact, pressure=np.where(mechanics.status.active, self.mean_pressure, 0)
+        )
+        return CoupledState(
+            time=0.0, position=0.0, mechanics=mechanics, heat=heat, contact=contact,
+            mu=self._coefficient(contact, heat),
+        )  # fmt: skip
+
+    def advance(
+        self, state: CoupledState, target: Target, help_level: float = 0.0
+    ) -> AcceptedStep | RejectedStep:
+        """Solve one step from an accepted state, with damping of a level; the state stays.
+
+        Passes over the friction coefficient and over the pairs of self-contact, each from the
+        solution of the last.
+        """
+        mu, pairs = state.mu, self._pairs(state, state.mechanics.u)
+        damping = None if self.damping is None else self.damping.rate(help_level, target.motion)
+        load = StepLoad(
+            dt=target.dt,
+            sweep=target.sweep,
+            force=target.force,
+            mu=mu,
+            damping=damping,
+            pairs=pairs,
+        )
+        problem = self.mechanics.step(state.mechanics, load)
+        start = problem.start()
+        iterations = hardest = 0
+        self.mechanics.solver.forget()
+        for number in range(1, MOST_PASSES + 1):
+            last = number >= self.friction_passes
+            options = self.options if last else self.first_options
+            result = newton.solve(problem, start, options)
+            iterations += result.iterations
+            hardest = max(hardest, result.iterations)
+            if result.failure is not None:
+                return RejectedStep(
+                    failure=result.failure, detail=result.detail, iterations=iterations
+                )
+            contact = self._contact(state, problem, result)
+            mu_next = self._coefficient(contact, state.heat)
+            lag = lag_error(contact, mu_next)
+            mu_settled = lag < LAG_TOLERANCE or last
+            next_pairs = self._followed(state, pairs, result.x.u)
+            solved = result.evaluation.merit <= self.options.tolerance
+            if mu_settled and next_pairs is pairs and solved:
+                penetration = self._penetration(problem, result.x.u)
+                if self.self_contact is not None and penetration > PENETRATION_MAX:
+                    return RejectedStep(
+                        failure=newton.Failure.PENETRATION, iterations=iterations,
+                        detail=f"by {penetration:.1%} of the local element size",
+                    )  # fmt: skip
+                return self._accept(
+                    state, target, problem, result, contact,
+                    iterations=iterations, hardest=hardest, penetration=penetration,
+                )  # fmt: skip
+            mu, pairs = mu if mu_settled else mu_next, next_pairs
+            problem, start = problem.again(mu, pairs), replace(result.x, reactions=None)
+        return RejectedStep(
+            failure=newton.Failure.ITERATIONS, detail="self-contact keeps changing its partners",
+            iterations=iterations,
+        )  # fmt: skip
+
+    def _pairs(self, state: CoupledState, u: FloatArray) -> Pairs | None:
+        """Pairs of self-contact between the accepted state and displacements `u`."""
+        if self.self_contact is None:
+            return None
+        mechanics, settings = self.mechanics, self.self_contact
+        shear = state.mechanics.self_shear
+        points = mechanics.mesh.points
+        return find_pairs(
+            mechanics.boundary, points + state.mechanics.u, points + u,
+            reach=settings.reach, stiffness=settings.stiffness, mu=settings.mu,
+            shear_n=np.zeros(mechanics.boundary.nodes.size) if shear is None else shear,
+        )  # fmt: skip
+
+    def _followed(self, state: CoupledState, pairs: Pairs | None, u: FloatArray) -> Pairs | None:
+        """Pairs to go on with at displacements `u`; the same object if they still hold."""
+        found = self._pairs(state, u)
+        if found is None or pairs is None:
+            return pairs
+        return followed(pairs, found, self.mechanics.mesh.points + u, self.mechanics.boundary)
+
+    def _contact(
+        self,
+        state: CoupledState,
+        problem: StepProblem,
+        result: newton.NewtonResult[Iterate, StepEvaluation],
+    ) -> RoadContact:
+        """Contact quantities of a converged iterate of a step from `state`."""
+        x, before = result.x, state.contact
+        forces: ContactForces = problem.contact_forces(x.u, result.evaluation.nodal)
+        active = x.status.active
+        speed = np.abs(forces.slip) / problem.load.dt
+        # A node that has just touched the road knows its present speed only.
+        known = np.where(before.status.active, before.remembered_velocity, speed)
+        remembered = self.laws.friction.remembered(known, speed, forces.slip)
+        length = self.mechanics.contact_lengths(x.u, active)
+        normal = np.where(active, forces.normal, 0.0)
+        return RoadContact(
+            status=x.status, length=np.where(active, length, 0.0), normal=normal,
+            shear=np.where(active, forces.tangential, 0.0),
+            pressure=np.maximum(normal, 0.0) / length,
+            slip_velocity=forces.slip / problem.load.dt, remembered_velocity=remembered,
+            mu=problem.load.mu,
+        )  # fmt: skip
+
+    def _coefficient(self, contact: RoadContact, heat: HeatState) -> FloatArray:
+        """Friction coefficient at the contact's pressure, slip velocity and temperature."""
+        p = np.where(contact.status.active, contact.pressure, self.mean_pressure)
+        v = contact.remembered_velocity
+        return self.laws.friction.coefficient(p, v, heat.T[self.mechanics.candidates])
+
+    def _accept(
+        self,
+        state: CoupledState,
+        target: Target,
+        problem: StepProblem,
+        result: newton.NewtonResult[Iterate, StepEvaluation],
+        contact: RoadContact,
+        *,
+        iterations: int,
+        hardest: int,
+        penetration: float,
+    ) -> AcceptedStep:
+        x = result.x
+        power = friction_power(state.contact, contact)
+        # A node that has just opened made its heat under the pressure it had.
+        pressure = np.where(contact.status.active, contact.pressure, state.contact.pressure)
+        mean = state.contact.mean_pressure or self.mean_pressure
+        pressure = self.laws.partition.governing(pressure, mean)
+        kappa, uncapped = self.laws.partition(pressure), self.laws.partition.uncapped(pressure)
+        nodes, work = self._self_friction(problem, result.evaluation)
+        heat = self._heat(
+            state, target, x.u, contact, kappa * power,
+            extra_nodes=nodes, extra_power=work / target.dt,
+        )  # fmt: skip
+        mechanics = MechanicalState(
+            u=x.u, velocity=problem.velocity(x.u), p=x.p, status=x.status,
+            self_shear=self._self_shear(problem, result.evaluation),
+        )  # fmt: skip
+        after = CoupledState(
+            time=state.time + target.dt, position=state.position + target.sweep,
+            mechanics=mechanics, heat=heat, contact=contact, mu=self._coefficient(contact, heat),
+        )  # fmt: skip
+        return AcceptedStep(
+            before=state, after=after, target=target, evaluation=result.evaluation,
+            problem=problem, iterations=iterations, hardest_pass=hardest,
+            lag_error=lag_error(contact, after.mu),
+            power=power, kappa=kappa,
+            capped=uncapped > self.laws.partition.cap, self_friction=float(work.sum()),
+            penetration=penetration,
+        )  # fmt: skip
+
+    def _self_friction(
+        self, problem: StepProblem, evaluation: StepEvaluation
+    ) -> tuple[IntArray, FloatArray]:
+        """Nodes and friction work of self-contact [mJ/mm]; all of it becomes heat in the rubber."""
+        pairs, forces = problem.load.pairs, evaluation.pairs
+        if pairs is None or forces is None:
+            return np.empty(0, dtype=np.int64), np.empty(0)
+        return heat_sources(pairs, forces, dissipation(pairs, forces))
+
+    def _penetration(self, problem: StepProblem, u: FloatArray) -> float:
+        """Largest penetration relative to the local element size, of pairs and of others [-]."""
+        x, boundary = self.mechanics.mesh.points + u, self.mechanics.boundary
+        depth = crossing_depth(x[boundary.nodes], boundary.size)
+        if problem.load.pairs is None:
+            return depth
+        return max(depth, pair_penetration(problem.load.pairs, x, boundary))
+
+    def _self_shear(self, problem: StepProblem, evaluation: StepEvaluation) -> FloatArray | None:
+        """Tangential forces of self-contact by boundary node."""
+        pairs, forces = problem.load.pairs, evaluation.pairs
+        if pairs is None or forces is None:
+            return None
+        shear = np.zeros(self.mechanics.boundary.nodes.size)
+        np.add.at(shear, pairs.place, forces.shear)
+        return shear
+
+    def _heat(
+        self, state: CoupledState, target: Target, u: FloatArray, contact: RoadContact,
+        power: FloatArray, *, extra_nodes: IntArray, extra_power: FloatArray,
+    ) -> HeatState:  # fmt: skip
+        active = contact.status.active
+        opened = ~active & (power != 0.0)
+        h = self.laws.conductance.conductance(contact.pressure, np.abs(contact.slip_velocity))
+        load = HeatLoad(
+            dt=target.dt, sweep=target.sweep, displacement=u,
+            contact_nodes=self.mechanics.candidates[active], power=power[active],
+            conductance=(W_PER_M2K * h * contact.length)[active],
+            extra_nodes=np.concatenate([self.mechanics.candidates[opened], extra_nodes]),
+            extra_power=np.concatenate([power[opened], extra_power]),
+        )  # fmt: skip
+        return self.heat.advance(state.heat, load, state.position)
+
+
+def friction_power(before: RoadContact, after: RoadContact) -> FloatArray:
+    """Frictional power of the candidates, mean over a step, (m,) [mJ/s].
+
+    The shear forces at both ends of the step, half each, times the slip in it: the trapezoidal
+    rule, by which the work of the platen is audited too. A node that closes or opens in the step
+    moves with its force only for a part of it, which this counts as half.
+    """
+    return np.asarray(-0.5 * (before.shear + after.shear) * after.slip_velocity)
+
+
+def lag_error(contact: RoadContact, mu_next: FloatArray) -> float:
+    """Relative change of the slip force between two friction coefficients [-]."""
+    weight = np.where(contact.status.slipping, np.abs(contact.normal), 0.0)
+    total = float(np.sum(weight * contact.mu))
+    return float(np.sum(weight * np.abs(mu_next - contact.mu))) / total if total > 0.0 else 0.0

@@ -1,0 +1,191 @@
+"""Tables of a run from its accepted steps: history rows, bottom surface, field snapshots."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fem.case.case import Case
+from fem.mechanics.step import platen_displacement
+from fem.mesh.block import BlockMesh
+from fem.results.bottom_history import BottomHistory
+from fem.results.boundary import BoundaryContact, boundary_table
+from fem.results.fitted_window import contact_columns, rubber_columns
+from fem.results.snapshot import BlockGeometry, Snapshot
+from fem.results.surface_profile import excess_area, interior_peak
+from fem.stepping.audit import EnergyAudit
+from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
+
+FloatArray = NDArray[np.float64]
+
+
+class Recorder:
+    """Collects rows and snapshots; sees accepted steps only.
+
+    Parameters
+    ----------
+    case : Case
+        For the ambient temperature and the number of snapshots.
+    model : CoupledModel
+        For mesh and elements.
+    """
+
+    def __init__(self, case: Case, model: CoupledModel) -> None:
+        self.case, self.model = case, model
+        self.rows: list[dict[str, Any]] = []
+        self.snapshots: list[Snapshot] = []
+        self.kinds: list[NDArray[Any]] = []
+        self.pressures: list[NDArray[Any]] = []
+        self.smallest_J = np.inf
+
+    @property
+    def mesh(self) -> BlockMesh:
+        """Reference mesh."""
+        return self.model.mechanics.mesh
+
+    @property
+    def geometry(self) -> BlockGeometry:
+        """Mesh for output."""
+        return BlockGeometry(points=self.mesh.points, cells=self.mesh.cells)
+
+    def record(self, step: AcceptedStep, audit: EnergyAudit) -> dict[str, Any]:
+        """Append the row of an accepted step and return it."""
+        assert step.evaluation.elements is not None
+        self.smallest_J = min(self.smallest_J, float(step.evaluation.elements.kinematics.J.min()))
+        row = self._contact_columns(step)
+        row |= temperature_columns(self.mesh, step.after.heat.T, self.case.heat.ambient_C)
+        row |= {"newton_iterations": step.iterations}
+        row |= energy_columns(audit, step.after)
+        row |= {"friction_lag_error": step.lag_error}
+        row |= {"min_J": float(step.evaluation.elements.kinematics.J.min())}
+        row |= {"self_contact_penetration": step.penetration}
+        status = step.after.contact.status
+        row |= {"sticking_nodes": int(status.sticking.sum())}
+        row |= {"slipping_nodes": int(status.slipping.sum())}
+        row |= self._window_columns(step)
+        self.rows.append(row)
+        self._record_bottom(step)
+        return row
+
+    def _window_columns(self, step: AcceptedStep) -> dict[str, float]:
+        """Shares outside the ranges that the laws of the case were fitted to."""
+        contact, active = step.after.contact, step.after.contact.status.active
+        elements = step.evaluation.elements
+        assert elements is not None
+        kin = elements.kinematics
+        return contact_columns(
+            self.case,
+            p=contact.pressure[active],
+            v=contact.slip_velocity[active],
+            T=step.after.heat.T[self.model.mechanics.candidates][active],
+            length=contact.length[active],
+            slipping=contact.status.slipping[active],
+        ) | rubber_columns(self.case, kin.I1, kin.J, self.model.mechanics.elements.weights)
+
+    def _contact_columns(self, step: AcceptedStep) -> dict[str, Any]:
+        contact, direction = step.after.contact, self.mesh.direction
+        normal, length = contact.normal_force, contact.contact_length
+        friction = direction * contact.friction_force
+        return {
+            "time_s": step.after.time,
+            "sliding_distance_mm": direction * step.after.position,
+            "velocity_mm_per_s": step.target.sweep / step.target.dt,
+            "normal_force_N_per_mm": normal,
+            "friction_force_N_per_mm": friction,
+            "friction_coefficient": friction / normal if normal > 0.0 else 0.0,
+            "contact_length_mm": length,
+            "mean_contact_pressure_N_per_mm2": normal / length if length > 0.0 else 0.0,
+            "max_contact_pressure_N_per_mm2": float(contact.pressure.max()),
+            "mean_slip_velocity_mm_per_s": direction * contact.mean_slip_velocity,
+            "platen_displacement_mm": platen_displacement(self.mesh, step.after.mechanics.u),
+        }
+
+    def snapshot(self, state: CoupledState, distance: float) -> None:
+        """Append the fields of an accepted state."""
+        elements, mechanics = self.model.mechanics.elements, state.mechanics
+        kinematics = elements.kinematics(mechanics.u)
+        road = self.model.heat.road_field(state.heat, state.position)
+        self.snapshots.append(
+            Snapshot(
+                time_s=state.time,
+                sliding_distance_mm=distance,
+                displacement=mechanics.u,
+                temperature=state.heat.T,
+                cauchy_stress=elements.cauchy(kinematics),
+                stretch=elements.largest_stretch(kinematics),
+                pressure=mechanics.p,
+                road_points=road.points,
+                road_cells=road.cells,
+                road_temperature=road.temperature,
+            )
+        )
+
+    def boundary(self, state: CoupledState) -> pd.DataFrame:
+        """Table of the free boundary of an accepted state."""
+        contact = state.contact
+        # The length of an open node is 0, and so is its shear force.
+        shear = contact.shear / np.maximum(contact.length, 1e-300)
+        return boundary_table(
+            self.mesh,
+            state.mechanics.u,
+            state.heat.T,
+            BoundaryContact(
+                kind=contact.status.kind, pressure=contact.pressure, shear=shear,
+                slip_velocity=contact.slip_velocity,
+            ),
+        )  # fmt: skip
+
+    def bottom(self, rows: int | None = None) -> BottomHistory:
+        """Stick, slip and pressure along the bottom in the first rows of the history."""
+        X = self.mesh.bottom_coordinate
+        return BottomHistory(
+            X_mm=X,
+            kind=np.array(self.kinds[:rows], dtype=np.int8).reshape(-1, X.size),
+            pressure=np.array(self.pressures[:rows], dtype=np.float32).reshape(-1, X.size),
+        )
+
+    def go_on_from(self, bottom: BottomHistory) -> None:
+        """Take over what was recorded along the bottom before an interruption."""
+        self.kinds, self.pressures = list(bottom.kind), list(bottom.pressure)
+
+    def _record_bottom(self, step: AcceptedStep) -> None:
+        first = len(self.mesh.rear) - 2
+        bottom = slice(first, first + len(self.mesh.bottom))
+        contact = step.after.contact
+        self.kinds.append(contact.status.kind[bottom].astype(np.int8))
+        self.pressures.append(contact.pressure[bottom].astype(np.float32))
+
+
+def temperature_columns(mesh: BlockMesh, T_C: FloatArray, ambient_C: float) -> dict[str, float]:
+    """T_max, T_edge and A_T from the nodal temperatures `T_C` (n,).
+
+    The front edge may have rolled under: it is the leading part of the bottom (see
+    `interior_peak`) and the leading face.
+    """
+    X, T = mesh.bottom_coordinate, T_C[mesh.bottom]
+    peak = interior_peak(X, T)
+    return {
+        "T_max_C": peak.T_max_C,
+        "T_edge_C": max(peak.T_edge_C, float(T_C[mesh.front].max())),
+        "A_T_K_mm": excess_area(X, T, ambient_C),
+    }
+
+
+def energy_columns(audit: EnergyAudit, state: CoupledState) -> dict[str, float]:
+    """Columns of the energy and the heat audit."""
+    heat = state.heat
+    return {
+        "work_in_mJ_per_mm": audit.work_in,
+        "strain_energy_mJ_per_mm": audit.strain_energy,
+        "friction_dissipation_mJ_per_mm": audit.friction,
+        "viscous_dissipation_mJ_per_mm": audit.viscous,
+        "snap_dissipation_mJ_per_mm": audit.snaps,
+        "kinetic_energy_mJ_per_mm": audit.kinetic,
+        "frictional_heat_mJ_per_mm": heat.generated,
+        "heat_in_rubber_mJ_per_mm": heat.in_block,
+        "heat_in_road_mJ_per_mm": heat.in_road + heat.left,
+        "radiated_mJ_per_mm": heat.radiated,
+    }
