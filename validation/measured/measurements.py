@@ -199,7 +199,7 @@ def _conditions(table: Table) -> pd.DataFrame:
 
 def _words(entries: pd.Series) -> NDArray[np.object_]:
     """The entries as words without surrounding spaces; empty where there is none."""
-    code, names = pd.factorize(entries.fillna(""))
+    code, names = pd.factorize(entries.astype(object).fillna(""))
     return np.array([str(name).strip() for name in names], dtype=object)[code]
 
 
