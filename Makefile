@@ -42,7 +42,7 @@ run: $(READY)
 	@$(MAKE) --no-print-directory $(RESULTS)/run.done
 
 test: $(READY)
-	$(BIN)/python -m pytest --benchmark-skip -m "not slow"
+	$(BIN)/python -m pytest --benchmark-skip -m "not slow" -n auto --dist worksteal
 
 test-all: $(READY)
 	$(BIN)/python -m pytest --benchmark-skip
