@@ -12,27 +12,22 @@ import argparse
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
-from fem import Case, simulate
 from fem.case.errors import CaseError
-from fem.case.reading import parse_override
-from fem.case.template import case_template
 from fem.files.interruption import gently, listening
 from fem.files.machine_faults import cause, one_line
 from fem.files.messages import BAD_INPUT, DONE, INTERRUPTED, NOT_CONVERGED, WARNED, say_of, warn
 from fem.files.terminal import lenient_streams, open_standard_descriptors
-from fem.results.checkpoint import CHECKPOINT_FILE, remove_checkpoint
 from fem.results.output_folder import check_output_file, chosen_output, output_folder
-from fem.results.result import FIGURES_FOLDER, RUN_FILES, read_summary
-from fem.results.resume import resumable
-from fem.stepping.cost import estimated_cost, refuse_unaffordable
-from fem.stepping.progress import RunProgress
 from validation.commands import add_arguments as add_paper_commands
+
+if TYPE_CHECKING:
+    from fem import Case
 
 _STATUS_CODES = {"ok": DONE, "interrupted": INTERRUPTED}
 
-# What draws or fits is imported by the commands that need it: matplotlib takes a second to load.
+# Everything that takes time to load is imported by the commands that need it.
 
 
 class _Parser(argparse.ArgumentParser):
@@ -123,6 +118,10 @@ def _add_accept_unusual(parser: argparse.ArgumentParser) -> None:
 
 def _load(arguments: argparse.Namespace) -> Case:
     """The case of a command that may run it: what cannot be is refused, what is unusual said."""
+    from fem import Case
+    from fem.case.reading import parse_override
+    from fem.stepping.cost import refuse_unaffordable
+
     overrides = dict(parse_override(text) for text in arguments.overrides)
     case = Case.from_toml(arguments.case, overrides)
     refuse_unaffordable(case)
@@ -158,6 +157,9 @@ def _add_strict(parser: argparse.ArgumentParser) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    from fem.results.checkpoint import CHECKPOINT_FILE
+    from fem.results.result import FIGURES_FOLDER, RUN_FILES
+
     case = _load(arguments)
     directory = chosen_output(arguments.output, Path("results") / Path(arguments.case).stem)
     files = (*RUN_FILES, CHECKPOINT_FILE)
@@ -166,6 +168,12 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
+    from fem import simulate
+    from fem.results.checkpoint import CHECKPOINT_FILE, remove_checkpoint
+    from fem.results.result import read_summary
+    from fem.results.resume import resumable
+    from fem.stepping.progress import RunProgress
+
     checkpoint = directory / CHECKPOINT_FILE
     found = resumable(directory, case) if arguments.resume else "nothing"
     if not arguments.quiet:
@@ -219,6 +227,8 @@ def _say_how_it_starts(found: str, checkpoint: Path, *, resume: bool) -> None:
 def _close(
     summary: dict[str, Any], directory: Path, said: Sequence[str], arguments: argparse.Namespace
 ) -> int:
+    from fem.results.checkpoint import CHECKPOINT_FILE
+
     if not arguments.quiet:
         print(_summary_table(summary))
         print(f"results in {directory}")
@@ -369,6 +379,8 @@ def _add_check(commands: Any) -> None:
 
 
 def _check(arguments: argparse.Namespace) -> int:
+    from fem.stepping.cost import estimated_cost
+
     case = _load(arguments)
     heading = f"{arguments.case}, every key as it is used.\nA run: {estimated_cost(case)}."
     sys.stdout.write(case.to_toml(heading))
@@ -391,6 +403,8 @@ def _template(arguments: argparse.Namespace) -> int:
 
         sys.stdout.write(study_template())
     else:
+        from fem.case.template import case_template
+
         sys.stdout.write(case_template())
     return DONE
 

@@ -7,7 +7,8 @@ import pandas as pd
 
 from fem.case.case import Case
 from fem.files.program_version import program_version
-from fem.mesh.block import BlockMesh, Grading, block_mesh
+from fem.mesh.block import BlockMesh, block_mesh
+from fem.mesh.grading import Grading
 from fem.results.bottom_history import BottomHistory
 from fem.results.boundary import BoundaryContact, boundary_table
 from fem.results.columns import HISTORY

@@ -72,7 +72,7 @@ def stub(monkeypatch):
     """Replace the simulation; returns a function that sets the stub in place."""
 
     def install(simulation):
-        monkeypatch.setattr(treadfem, "simulate", simulation.simulate)
+        monkeypatch.setattr("fem.simulate", simulation.simulate)
         return simulation
 
     return install

@@ -262,7 +262,7 @@ def test_machine_without_memory_for_the_model_is_said_in_one_line(folder, monkey
     def too_large(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr(treadfem, "simulate", too_large)
+    monkeypatch.setattr("fem.simulate", too_large)
     assert treadfem.main(["run", str(folder / "case.toml"), "-o", str(folder / "out")]) == 2
     errors = capsys.readouterr().err
     assert is_one_line(errors)

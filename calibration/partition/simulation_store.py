@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fem import simulate
 from fem.case.case import Case
 from fem.files.atomic import remove_remains, write_text
 from fem.files.program_version import program_version
@@ -23,7 +24,6 @@ from fem.results.columns import SURFACE
 from fem.results.outcome import INTERRUPTED, OK
 from fem.results.result import SURFACE_FILE, missing_files, read_summary, read_table
 from fem.results.resume import gone_on_with
-from fem.simulate import simulate
 
 Array = NDArray[np.float64]
 SIMULATIONS_FOLDER = "simulations"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fem.case.case import Case
 from fem.case.errors import CaseError
 from fem.case.sections import MeshSpec
-from fem.mesh.block import NAMED_GRADINGS
+from fem.mesh.grading import NAMED_GRADINGS
 
 #: Elements of the mesh that the factors were measured with.
 _REFERENCE = 2880

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fem.case.case import Case
-from fem.mesh.block import NAMED_GRADINGS, BlockMesh, Grading, block_mesh
+from fem.mesh.block import BlockMesh, block_mesh
+from fem.mesh.grading import NAMED_GRADINGS, Grading
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,7 +20,8 @@ from fem.heat.model import HeatModel
 from fem.heat.state import HeatLoad
 from fem.mechanics.elements import Q1P0Elements
 from fem.mechanics.step import BlockMechanics
-from fem.mesh.block import NAMED_GRADINGS, BlockMesh, block_mesh
+from fem.mesh.block import BlockMesh, block_mesh
+from fem.mesh.grading import NAMED_GRADINGS
 from fem.solvers.direct import SYMMETRIC
 from fem.stepping.rigid_block import bottom_lengths
 from materials.thermal import ASPHALT, RUBBER

@@ -6,7 +6,8 @@ import numpy as np
 
 from fem.heat.model import HeatModel
 from fem.heat.state import HeatLoad
-from fem.mesh.block import NAMED_GRADINGS, block_mesh
+from fem.mesh.block import block_mesh
+from fem.mesh.grading import NAMED_GRADINGS
 from fem.stepping.rigid_block import bottom_lengths
 from materials.thermal import ASPHALT, RUBBER
 

@@ -9,7 +9,8 @@ from scipy.sparse.linalg import splu
 from fem import Case, newton, simulate
 from fem.mechanics.elements import Q1P0Elements
 from fem.mechanics.step import BlockMechanics
-from fem.mesh.block import NAMED_GRADINGS, block_mesh
+from fem.mesh.block import block_mesh
+from fem.mesh.grading import NAMED_GRADINGS
 from fem.solvers.direct import SYMMETRIC
 from tests.fem.contact_steps import YEOH, load_of, pressed
 

@@ -15,7 +15,7 @@ from calibration.datasets import dataset_path
 from calibration.partition import simulation_store
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synthetic_sweeps
 from contact import HuemerFriction
-from fem.simulate import simulate
+from fem import simulate
 from materials import WLF
 from tests.calibration.partition.made_up_slides import RIGID
 

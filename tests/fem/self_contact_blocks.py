@@ -7,7 +7,7 @@ import numpy as np
 from contact.self_contact import dissipation, find_pairs, followed, pair_penetration
 from fem import newton
 from fem.mechanics.state import MechanicalState
-from fem.simulate import SELF_CONTACT_STIFFNESS
+from fem.simulation import SELF_CONTACT_STIFFNESS
 from fem.stepping.step_control import StepController, StepPlan, landed
 from tests.fem.contact_steps import OPTIONS, load_of
 

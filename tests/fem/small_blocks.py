@@ -7,7 +7,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
 from fem.mechanics.elements import Q1P0Elements, tangent_entries
-from fem.mesh.block import Grading, block_mesh
+from fem.mesh.block import block_mesh
+from fem.mesh.grading import Grading
 
 UNIFORM = 1e9
 

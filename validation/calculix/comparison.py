@@ -29,9 +29,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fem import simulate
 from fem.case.case import Case
 from fem.results.result import Result
-from fem.simulate import simulate
 from validation.calculix.export_deck import DeckOptions, write_deck
 from validation.calculix.results import deck_history, read_dat
 from validation.calculix.run import run_calculix

@@ -11,7 +11,7 @@ from matplotlib.patches import ConnectionPatch, Rectangle
 
 from fem.case.case import Case
 from fem.mesh.block import BlockMesh
-from fem.simulate import mesh_of
+from fem.simulation import mesh_of
 from validation.drawing.block_drawing import (
     Window,
     draw_mesh,

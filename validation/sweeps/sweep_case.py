@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from fem import simulate
 from fem.case.case import Case
 from fem.files.atomic import write_text
 from fem.files.machine_faults import cause, one_line
@@ -27,7 +28,6 @@ from fem.results.outcome import INTERRUPTED, NOT_CONVERGED, OK
 from fem.results.output_folder import output_folder
 from fem.results.result import CASE_FILE, FIGURES_FOLDER, RUN_FILES, missing_files, read_summary
 from fem.results.resume import gone_on_with
-from fem.simulate import simulate
 
 RUNS_FOLDER = "runs"
 MARKER = "sweep.json"

@@ -13,9 +13,9 @@ import pytest
 from calibration.partition.fit import fit_partition
 from calibration.partition.simulation_store import MARKER, SimulationStore
 from contact import HeatPartition
+from fem import simulate
 from fem.case.case import Case
 from fem.results.surface_profile import interior_peak
-from fem.simulate import simulate
 from tests.calibration.partition.made_up_slides import MadeUpStore, X, deformable
 
 TRUE = HeatPartition()

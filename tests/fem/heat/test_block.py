@@ -6,7 +6,8 @@ from scipy.sparse.linalg import spsolve
 from skfem import Basis, BilinearForm, ElementQuad1, ElementVector
 
 from fem.heat.block import NODAL_RULE, BlockConduction, relative_change
-from fem.mesh.block import BlockMesh, Grading, block_mesh
+from fem.mesh.block import BlockMesh, block_mesh
+from fem.mesh.grading import Grading
 from materials.thermal import RUBBER
 from tests.reference_solutions.conduction import constant_flux
 

@@ -9,7 +9,8 @@ from fem.heat.model import HeatModel
 from fem.heat.radiation import STEFAN_BOLTZMANN
 from fem.heat.road import RoadGrid
 from fem.heat.state import HeatLoad, HeatState
-from fem.mesh.block import Grading, block_mesh
+from fem.mesh.block import block_mesh
+from fem.mesh.grading import Grading
 from materials.thermal import ASPHALT, RUBBER
 from tests.reference_solutions.conduction import (
     contact_of_two_half_spaces,

@@ -8,7 +8,8 @@ from scipy.optimize import brentq
 
 from contact.active_set import OPEN, SLIP, STICK, ContactStatus
 from fem.mechanics.step import Iterate, platen_displacement
-from fem.mesh.block import Grading, block_mesh
+from fem.mesh.block import block_mesh
+from fem.mesh.grading import Grading
 from tests.fem.contact_steps import (
     OPTIONS,
     YEOH,

@@ -5,7 +5,8 @@ import warnings
 import numpy as np
 import pytest
 
-from fem.mesh.block import NAMED_GRADINGS, Grading, block_mesh, graded_coordinates
+from fem.mesh.block import block_mesh, graded_coordinates
+from fem.mesh.grading import NAMED_GRADINGS, Grading
 
 
 @pytest.mark.parametrize(

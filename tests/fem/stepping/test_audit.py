@@ -7,7 +7,7 @@ import pytest
 
 from fem import Case
 from fem.case.sections import Solver
-from fem.simulate import coupled_model
+from fem.simulation import coupled_model
 from fem.stepping.audit import EnergyAudit, audited
 from fem.stepping.coupled_step import AcceptedStep
 from fem.stepping.programme import programme

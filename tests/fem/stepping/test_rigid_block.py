@@ -8,7 +8,8 @@ from contact.friction import HuemerFriction, shifted
 from contact.partition import HeatPartition
 from fem.case.case import Case
 from fem.heat.model import HeatModel
-from fem.mesh.block import NAMED_GRADINGS, block_mesh
+from fem.mesh.block import block_mesh
+from fem.mesh.grading import NAMED_GRADINGS
 from fem.stepping.rigid_block import RigidSliding, slide_rigid_block
 from materials.thermal import ASPHALT, RUBBER
 from materials.wlf import WLF

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pandas as pd
 import pytest
 
+from fem import simulate
 from fem.case.sections import Solver
-from fem.simulate import simulate
 from tests.validation.sliding_cases import sliding_case
 from validation.calculix.comparison import compare_with_calculix, compared, largest_differences
 from validation.calculix.export_deck import DeckOptions, write_deck

@@ -9,7 +9,7 @@ import treadfem
 from fem.case.case import Case
 from fem.case.errors import CaseError
 from fem.mechanics.step import BlockMechanics
-from fem.simulate import coupled_model
+from fem.simulation import coupled_model
 from fem.stepping.model_parts import mesh_of
 from tests.validation.deck_reading import FACES, named, node_set, nodes, read_deck
 from tests.validation.sliding_cases import sliding_case

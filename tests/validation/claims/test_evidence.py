@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
+from fem import simulate
 from fem.case.case import Case
-from fem.simulate import simulate
 from tests.made_up_result import made_up_result
 from tests.validation.made_up_run import made_up_run
 from validation.claims import experiments, section_4_2, section_5_1_forces

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fem.mesh.block import Grading, block_mesh
+from fem.mesh.block import block_mesh
+from fem.mesh.grading import Grading
 from validation.drawing.block_drawing import cell_areas, front_window, nodal_average, outline
 
 MESH = block_mesh(20.0, 8.0, Grading(cells_x=12, cells_y=6, smallest_x=0.5, smallest_y=0.3))

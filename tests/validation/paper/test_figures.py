@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from fem.results.result import Result
-from fem.simulate import mesh_of, simulate
+from fem.simulation import mesh_of, simulate
 from tests.made_up_result import made_up_case, made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from validation.drawing import run_figures

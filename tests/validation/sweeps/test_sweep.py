@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import treadfem
+from fem import simulate
 from fem.case.errors import CaseError
-from fem.simulate import simulate
 from tests.made_up_result import made_up_case, made_up_result
 from validation.sweeps import sweep_case, sweep_workers
 from validation.sweeps.sweep import SweepProgress, sweep
