@@ -1,6 +1,5 @@
 """The committed tables of the studies to the limit, and the README's block that is made of them."""
 
-import numpy as np
 import pandas as pd
 import pytest
 
@@ -126,11 +125,6 @@ def test_cases_of_the_onset_are_named_by_what_sets_them_apart():
     assert len(set(names)) == len(names) == 10
     assert names[0] == "introductory example"
     assert {"Coulomb, 0.6", "6 mm high", "50 mm/s", "yeoh-bars-series-2"} <= set(names)
-
-
-def test_the_committed_limits_are_finite():
-    for path in VARIED:
-        assert np.isfinite(pd.read_csv(path)[[*FORCES, PLATEN]].to_numpy()).all()
 
 
 def test_the_onset_of_the_introductory_example_is_that_of_its_limit():

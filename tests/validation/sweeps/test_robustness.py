@@ -28,16 +28,23 @@ def test_the_study_is_the_full_product(study):
     assert len(study) == 6 * 3 * 6
 
 
-@pytest.mark.parametrize(("compound", "pressure", "law", "mu"), SPREAD)
-def test_the_block_slides_to_the_end(study, compound, pressure, law, mu):
-    wanted = {
+def values(compound, pressure, law, mu):
+    return {
         "rubber.compound": compound,
         "loading.mean_pressure_N_per_mm2": pressure,
         "friction.law": law,
     } | ({} if mu is None else {"friction.mu": mu})
-    chosen = [c for c in study if wanted.items() <= c.overrides.items()]
-    assert len(chosen) == 1
-    summary = simulate(chosen[0].case.with_overrides(COARSE)).summary
+
+
+def chosen(study, *row):
+    (case,) = (c for c in study if values(*row).items() <= c.overrides.items())
+    return case
+
+
+@pytest.mark.parametrize(("compound", "pressure", "law", "mu"), SPREAD)
+def test_the_block_slides_to_the_end(study, compound, pressure, law, mu):
+    case = chosen(study, compound, pressure, law, mu).case
+    summary = simulate(case.with_overrides(COARSE)).summary
     assert summary["status"] == "ok", summary.get("reason")
     assert summary["energy_error"] < 0.01
     assert summary["heat_error"] < 0.01
@@ -58,26 +65,18 @@ def test_the_table_has_every_case_of_the_study(study, table):
     assert found.where(found.notna(), None).to_numpy().tolist() == asked
 
 
-def test_every_case_of_the_table_went_through(table):
-    assert set(table["status"]) == {"ok"}
-
-
-def test_every_case_of_the_table_keeps_the_limits(table):
-    assert table["energy_error"].max() < 0.01
-    assert table["heat_error"].max() < 0.01
-    assert table["largest_self_penetration"].max() < 0.01
-    assert table["min_J"].min() > 0.0
-
-
-def test_the_regularisation_carries_work_only_where_the_edge_still_rolls_under(table):
-    """Where no more than 1 % of the work is stored, the slide is steady.
-
-    At a coefficient of 1.2 the edge still rolls under where 1.2 to 1.6 % is stored: damping then
-    takes 2.1 and 2.2 %.
-    """
-    steady = table[table["storage_share"].abs() < 0.01]
-    assert len(steady) > 0.8 * len(table)
-    assert steady["regularisation_share"].max() < 0.02
+@pytest.mark.slow
+@pytest.mark.parametrize(("compound", "pressure", "law", "mu"), SPREAD[::2])
+def test_rows_of_the_table_are_those_of_the_program(study, table, compound, pressure, law, mu):
+    """The committed table is as old as the last `make robustness`: what it shows still holds."""
+    case = chosen(study, compound, pressure, law, mu).case
+    asked = {"reason": None, "friction.mu": mu, **values(compound, pressure, law, mu)}
+    again = robustness_table(pd.DataFrame([{**asked, **simulate(case).summary}])).iloc[0]
+    known = pd.Series(values(compound, pressure, law, mu)).rename(VARIED)
+    (row,) = table[(table[known.index] == known).all(axis=1)].to_dict("records")
+    assert again["status"] == row["status"] == "ok"
+    assert again["T_max_C"] == pytest.approx(row["T_max_C"], abs=0.05)
+    assert again["friction_coefficient"] == pytest.approx(row["friction_coefficient"], rel=2e-3)
 
 
 def test_the_table_is_the_summary_of_a_sweep_in_four_digits():
