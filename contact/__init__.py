@@ -10,9 +10,11 @@ from contact.friction import (
     shifted,
 )
 from contact.partition import HeatPartition
+from contact.wear import EnergyWear
 
 __all__ = [
     "CoulombFriction",
+    "EnergyWear",
     "ExponentialFriction",
     "FrictionLaw",
     "GapConductance",

@@ -29,6 +29,21 @@ def constant_flux(z, t, *, flux, k, rho_c):
     return 2.0 * flux * length / k * ierfc(z / (2.0 * length))
 
 
+def train_of_pulses(t, *, flux, effusivity, duration, period):
+    """Surface temperature rise at the times t of pulses of constant flux, one every period [1]_.
+
+    A pulse is a flux that starts and one of the other sign that starts when it ends; each raises
+    the surface by 2 q/e sqrt(t/pi) (2.9). Between the pulses the surface is insulated.
+    """
+
+    def rise(since):
+        return 2.0 * flux / effusivity * np.sqrt(np.maximum(since, 0.0) / np.pi)
+
+    starts = period * np.arange(int(np.max(t) // period) + 1)[:, None]
+    since = np.atleast_1d(t) - starts
+    return (rise(since) - rise(since - duration)).sum(axis=0)
+
+
 def contact_of_two_half_spaces(t, *, T_1, T_2, h, effusivity_1, effusivity_2):
     """Surface temperatures of two half-spaces joined by a conductance h at t = 0.
 
