@@ -1,7 +1,9 @@
 """Whether a boundary cuts itself, judged by its segments alone.
 
 Self-contact acts between the pairs that its search has found. This looks at the outcome without
-that search, so that what it missed cannot go unseen.
+that search, so that what it missed cannot go unseen. Nor can an element that has turned inside out
+at its nodes, between integration points that are all sound: at the leading corner that puts an edge
+of the boundary across the next but one, which no search for pairs can prevent.
 """
 
 from __future__ import annotations

@@ -32,12 +32,14 @@ from fem.stepping.coupled_step import (
     ContactLaws,
     CoupledModel,
     CoupledState,
+    RejectedStep,
     SelfContact,
 )
 from fem.stepping.model_parts import Progress, mesh_of
 from fem.stepping.point import Records, RunPoint, RunRecord, columns, snapshots_due
 from fem.stepping.programme import Phase, programme
 from fem.stepping.recorder import Recorder
+from fem.stepping.relaxation import RELAXED_ONSET, relaxed
 from fem.stepping.rigid_run import simulate_rigid
 from fem.stepping.step_control import StepController, StepPlan, landed
 from fem.stepping.summary import (
@@ -195,12 +197,12 @@ class _Run:
         while at < phase.end:
             length = landed(at, min(plan.step, phase.longest(at)), phase.end)
             stop = phase.end if length == phase.end - at else at + length
-            attempt = self.model.advance(self.state, phase.target(at, stop), plan.help)
+            attempt, left = self._attempt(phase, at, stop, plan.help)
             self.iterations += attempt.iterations
             if isinstance(attempt, AcceptedStep):
                 at = stop
                 self._accept(attempt, phase, at, snaps)
-                plan, snaps = control.accepted(plan, length, attempt.hardest_pass), False
+                plan, snaps = control.accepted(plan, length, attempt.hardest_pass, left), False
                 self.point = self._point(number, at, plan)
                 self._report()
                 continue
@@ -214,6 +216,16 @@ class _Run:
                 unit = " mm" if phase.slides else " of the load"
                 return failed(attempt.failure, attempt.detail, f"{phase.name} {at:.4g}{unit}")
         return Outcome(status=OK)
+
+    def _attempt(
+        self, phase: Phase, at: float, stop: float, level: float
+    ) -> tuple[AcceptedStep | RejectedStep, float | None]:
+        """A step with damping of a level; at the onset relaxed, and which level that left."""
+        attempt = self.model.advance(self.state, phase.target(at, stop), level)
+        onset = phase.slides and at < RELAXED_ONSET
+        if onset and level > 0.0 and isinstance(attempt, AcceptedStep):
+            return relaxed(self.model, attempt, level)
+        return attempt, None
 
     def _accept(self, step: AcceptedStep, phase: Phase, at: float, snaps: bool) -> None:
         self.audit = audited(self.audit, step, self.model.mechanics, snaps=snaps)

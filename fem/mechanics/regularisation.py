@@ -4,7 +4,8 @@ Under high friction the leading edge rolls under in snaps: at a limit point no e
 and the edge jumps to the next one. A step without a solution is solved again with a Kelvin-Voigt
 stress ``S = eta (E - E_n)/dt`` that carries the jump; its strength, the *level*, rises with each
 failure and fades with each accepted step until nothing of it is left (`fem.stepping.step_control`).
-Steps that have a solution see none of it, so that the onset of sliding is the elastic one.
+Steps that have a solution see none of it, so that the onset of sliding is the elastic one; those of
+the onset that have none are relaxed afterwards (`fem.stepping.relaxation`).
 
 The relaxation time is stated as a sliding distance, so that the damping acts alike at all
 velocities; most of it sits at the leading corner, where the surface folds. Too much of it holds the

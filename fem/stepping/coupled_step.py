@@ -161,6 +161,12 @@ class AcceptedStep:
     self_friction: float = 0.0
     penetration: float = 0.0
 
+    @property
+    def solution(self) -> Iterate:
+        """What an iteration of the same step with other damping can start from."""
+        x = self.after.mechanics
+        return Iterate(u=x.u, p=x.p, status=x.status)
+
 
 @dataclass(frozen=True, kw_only=True)
 class RejectedStep:
@@ -261,14 +267,21 @@ class CoupledModel:
         )  # fmt: skip
 
     def advance(
-        self, state: CoupledState, target: Target, help_level: float = 0.0
+        self,
+        state: CoupledState,
+        target: Target,
+        help_level: float = 0.0,
+        guess: AcceptedStep | None = None,
     ) -> AcceptedStep | RejectedStep:
         """Solve one step from an accepted state, with damping of a level; the state stays.
 
         Passes over the friction coefficient and over the pairs of self-contact, each from the
-        solution of the last.
+        solution of the last. The first starts from the state, or from a `guess`: the same step
+        solved with other damping.
         """
         mu, pairs = state.mu, self._pairs(state, state.mechanics.u)
+        if guess is not None:
+            mu, pairs = guess.problem.load.mu, guess.problem.load.pairs
         damping = None if self.damping is None else self.damping.rate(help_level, target.motion)
         load = StepLoad(
             dt=target.dt,
@@ -279,7 +292,7 @@ class CoupledModel:
             pairs=pairs,
         )
         problem = self.mechanics.step(state.mechanics, load)
-        start = problem.start()
+        start = problem.start() if guess is None else guess.solution
         iterations = hardest = 0
         self.mechanics.solver.forget()
         for number in range(1, MOST_PASSES + 1):

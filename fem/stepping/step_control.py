@@ -47,7 +47,8 @@ class StepController:
         Level after a first failure, its factor after another, from where on steps are cut too, and
         the largest one.
     fading, no_help : float
-        Factor of the level after an accepted step, and below which level there is none.
+        Factor of the level after an accepted step, and below which level there is none. Where it
+        fades faster, or over a distance, the next snaps fail again: twice the iterations.
     """
 
     step_max: float
@@ -64,11 +65,14 @@ class StepController:
     enough_help: float = 4.0
     most_help: float = 64.0
     fading: float = 0.85
-    no_help: float = 0.3
+    no_help: float = 0.01
 
-    def accepted(self, plan: StepPlan, length: float, iterations: int) -> StepPlan:
-        """Plan after an accepted step of this length."""
-        step, bound, level = length, plan.bound * self.recovery, plan.help * self.fading
+    def accepted(
+        self, plan: StepPlan, length: float, iterations: int, help_left: float | None = None
+    ) -> StepPlan:
+        """Plan after an accepted step of this length; help fades unless it is said what is left."""
+        step, bound = length, plan.bound * self.recovery
+        level = plan.help * self.fading if help_left is None else help_left
         if iterations <= self.easy:
             step *= self.growth
         elif iterations > self.hard:

@@ -63,6 +63,12 @@ def test_help_fades_to_nothing():
     assert min(level for level in levels if level) >= CONTROL.no_help
 
 
+def test_help_that_a_step_was_relaxed_to_does_not_fade():
+    plan = StepPlan(step=0.1, help=4.0)
+    assert CONTROL.accepted(plan, 0.1, 3, 0.5).help == 0.5
+    assert CONTROL.accepted(plan, 0.1, 3, 0.0).help == 0.0
+
+
 def test_a_step_that_needed_none_gets_no_help():
     assert after(0.1, 3).help == 0.0
 

@@ -1,0 +1,86 @@
+"""Relaxation of a damped step: where it ends, what it costs, and that it is the same step."""
+
+import numpy as np
+import pytest
+
+from fem import Case, newton
+from fem.simulate import coupled_model
+from fem.stepping.coupled_step import AcceptedStep, RejectedStep
+from fem.stepping.programme import programme
+from fem.stepping.relaxation import LAST_LEVEL, relaxed
+
+
+@pytest.fixture(scope="module")
+def sliding():
+    """Model, pressed state and target of a first sliding step, which has a solution undamped."""
+    spec = {"cells_x": 12, "cells_y": 6, "smallest_x_mm": 1.6, "smallest_y_mm": 1.3}
+    case = Case.from_dict(
+        {
+            "loading": {
+                "mean_pressure_N_per_mm2": 0.25,
+                "velocity_mm_per_s": 300.0,
+                "distance_mm": 1.0,
+            },
+            "block": {"mesh": spec},
+            "friction": {"law": "coulomb", "mu": 0.3, "wlf": False},
+        }
+    )
+    model, (pressing, slide) = coupled_model(case), programme(case)
+    step = model.advance(model.initial_state(), pressing.target(0.0, 1.0))
+    assert isinstance(step, AcceptedStep)
+    return model, step.after, slide.target(0.0, 0.1)
+
+
+def test_where_an_undamped_solution_exists_relaxation_ends_in_it(sliding):
+    model, state, target = sliding
+    damped, elastic = model.advance(state, target, 4.0), model.advance(state, target)
+    step, level = relaxed(model, damped, 4.0)
+    forces = [s.after.contact.friction_force for s in (damped, elastic, step)]
+    assert level == 0.0
+    assert step.problem.viscosity is None
+    assert abs(forces[0] - forces[1]) > 0.05 * forces[1]
+    assert forces[2] == pytest.approx(forces[1], rel=1e-6)
+    np.testing.assert_allclose(step.after.mechanics.u, elastic.after.mechanics.u, atol=1e-7)
+
+
+def test_a_relaxed_step_starts_and_goes_where_the_damped_one_did(sliding):
+    model, state, target = sliding
+    damped = model.advance(state, target, 4.0)
+    step, _ = relaxed(model, damped, 4.0)
+    assert step.before is state
+    assert step.target is target
+    assert step.after.time == damped.after.time
+    assert step.iterations > damped.iterations
+
+
+def test_relaxation_ends_where_there_is_no_solution_and_counts_what_it_cost(sliding):
+    model, state, target = sliding
+    damped = model.advance(state, target, 4.0)
+
+    failed = RejectedStep(failure=newton.Failure.STALLED, detail="", iterations=7)
+
+    class Stubborn:
+        """Finds solutions with a damping of at least 1."""
+
+        def __init__(self):
+            self.levels = []
+
+        def advance(self, state, target, level, guess):
+            self.levels.append(level)
+            found = model.advance(state, target, level, guess)
+            return found if level >= 1.0 else failed
+
+    stubborn = Stubborn()
+    step, level = relaxed(stubborn, damped, 4.0)
+    assert stubborn.levels == [2.0, 1.0, 0.5]
+    assert level == 1.0
+    assert step.problem.viscosity is not None
+    assert step.iterations > damped.iterations + 7
+
+
+def test_the_last_solution_has_no_damping_at_all(sliding):
+    model, state, target = sliding
+    weak = model.advance(state, target, LAST_LEVEL)
+    step, level = relaxed(model, weak, LAST_LEVEL)
+    assert level == 0.0
+    assert step.problem.viscosity is None
