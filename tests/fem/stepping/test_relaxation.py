@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fem import Case, newton
-from fem.simulate import coupled_model
+from fem.simulation import coupled_model
 from fem.stepping.coupled_step import AcceptedStep, RejectedStep
 from fem.stepping.programme import programme
 from fem.stepping.relaxation import LAST_LEVEL, relaxed
