@@ -16,13 +16,17 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 
-def crossing_segments(chain: FloatArray) -> tuple[IntArray, IntArray]:
-    """Pairs of segments of a chain of points that cut each other.
+def crossing_segments(
+    chain: FloatArray, joined: NDArray[np.bool_] | None = None
+) -> tuple[IntArray, IntArray]:
+    """Pairs of segments of a boundary that cut each other.
 
     Parameters
     ----------
     chain : (m, 2) float array
         Points along the boundary [mm]; segment i joins points i and i + 1.
+    joined : (m - 1,) bool array, optional
+        Which segments there are; all without it. Several curves may stand one after another.
 
     Returns
     -------
@@ -30,16 +34,21 @@ def crossing_segments(chain: FloatArray) -> tuple[IntArray, IntArray]:
         Numbers of the segments. Segments that share a point do not count.
     """
     start, edge = chain[:-1], np.diff(chain, axis=0)
+    there = np.arange(len(edge)) if joined is None else np.flatnonzero(joined)
+    start_there, edge_there = start[there], edge[there]
     # Segments that cut each other have middles no further apart than the longer one is long.
-    reach = float(np.hypot(edge[:, 0], edge[:, 1]).max())
-    near = cKDTree(start + 0.5 * edge).query_pairs(reach, output_type="ndarray")
+    reach = float(np.hypot(edge_there[:, 0], edge_there[:, 1]).max())
+    middles = cKDTree(start_there + 0.5 * edge_there)
+    near = there[middles.query_pairs(reach, output_type="ndarray")]
     i, j = near[np.abs(near[:, 0] - near[:, 1]) > 1].astype(np.int64).T
     apart = _sides_differ(start[i], edge[i], chain[j], chain[j + 1])
     cut = apart & _sides_differ(start[j], edge[j], chain[i], chain[i + 1])
     return i[cut], j[cut]
 
 
-def crossing_depth(chain: FloatArray, size: FloatArray) -> float:
+def crossing_depth(
+    chain: FloatArray, size: FloatArray, joined: NDArray[np.bool_] | None = None
+) -> float:
     """Depth to which a boundary cuts itself, relative to the local element size [-].
 
     Parameters
@@ -48,6 +57,8 @@ def crossing_depth(chain: FloatArray, size: FloatArray) -> float:
         Points along the boundary [mm].
     size : (m,) float array
         Local element size at the points [mm].
+    joined : (m - 1,) bool array, optional
+        See `crossing_segments`.
 
     Returns
     -------
@@ -55,7 +66,7 @@ def crossing_depth(chain: FloatArray, size: FloatArray) -> float:
         Of each crossing the shortest way from an end of one segment to the other; the largest of
         all, 0 without a crossing.
     """
-    i, j = crossing_segments(chain)
+    i, j = crossing_segments(chain, joined)
     ends = ((i, j), (i + 1, j), (j, i), (j + 1, i))
     depths = [_distance(chain[k], chain[m], chain[m + 1]) / size[k] for k, m in ends]
     return float(np.min(depths, axis=0).max(initial=0.0))

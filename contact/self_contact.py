@@ -49,7 +49,7 @@ UNSEEN = 0.005
 
 @dataclass(frozen=True, kw_only=True)
 class Boundary:
-    """The free boundary as a chain of nodes.
+    """The free boundary as a chain of nodes, of one curve or of several one after another.
 
     Attributes
     ----------
@@ -61,21 +61,31 @@ class Boundary:
         Reference length each node stands for [mm].
     size : (m,) float array
         Local element size, which gaps are compared with [mm].
+    joined : (m - 1,) bool array
+        Whether a segment joins a node and the next one; False where one curve ends and another
+        begins.
     """
 
     nodes: IntArray
     orientation: int
     length: FloatArray
     size: FloatArray
+    joined: NDArray[np.bool_]
 
     @classmethod
     def of(
-        cls, nodes: IntArray, orientation: int, points: FloatArray, size: FloatArray
+        cls,
+        nodes: IntArray,
+        orientation: int,
+        points: FloatArray,
+        size: FloatArray,
+        joined: NDArray[np.bool_] | None = None,
     ) -> Boundary:
         """Boundary of the reference coordinates `points` (n, 2) with local sizes (m,)."""
-        edges = np.linalg.norm(np.diff(points[nodes], axis=0), axis=1)
+        joined = np.ones(len(nodes) - 1, dtype=bool) if joined is None else joined
+        edges = joined * np.linalg.norm(np.diff(points[nodes], axis=0), axis=1)
         halves = 0.5 * np.append(0.0, edges) + 0.5 * np.append(edges, 0.0)
-        return cls(nodes=nodes, orientation=orientation, length=halves, size=size)
+        return cls(nodes=nodes, orientation=orientation, length=halves, size=size, joined=joined)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -292,7 +302,7 @@ def find_pairs(
         boundary.size[place], np.minimum(boundary.size[segment], boundary.size[segment + 1])
     )
     eligible = (
-        (_facing(chain, boundary.orientation, place, now.n) < OPPOSING)
+        (_facing(boundary, chain, place, now.n) < OPPOSING)
         & (np.abs(now.xi - 0.5) <= 0.5 + OVERHANG)
         & (then.gap > -BEHIND * size)
         & (np.abs(now.gap) < reach)
@@ -329,16 +339,22 @@ def _near(boundary: Boundary, x: FloatArray, reach: float) -> tuple[IntArray, In
     segment = np.concatenate([both[:, 1] - 1, both[:, 1]])
     apart = np.minimum(np.abs(place - segment), np.abs(place - segment - 1))
     valid = (segment >= 0) & (segment < len(chain) - 1) & (apart > NEIGHBOURS)
+    valid[valid] = boundary.joined[segment[valid]]
     code = np.unique(place[valid] * len(chain) + segment[valid])
     return code // len(chain), code % len(chain)
 
 
-def _facing(chain: FloatArray, orientation: int, place: IntArray, normal: FloatArray) -> FloatArray:
+def _facing(
+    boundary: Boundary, chain: FloatArray, place: IntArray, normal: FloatArray
+) -> FloatArray:
     """Smallest cosine between `normal` (k, 2) and the normals of the segments at nodes (k,)."""
     e = np.diff(chain, axis=0)
-    n = orientation * np.column_stack([e[:, 1], -e[:, 0]])
+    n = boundary.orientation * np.column_stack([e[:, 1], -e[:, 0]])
     n /= np.maximum(np.linalg.norm(n, axis=1), 1e-300)[:, None]
     before, after = np.vstack([n[:1], n]), np.vstack([n, n[-1:]])
+    # The ends of a curve have one segment only.
+    ends = np.flatnonzero(~boundary.joined)
+    before[ends + 1], after[ends] = after[ends + 1], before[ends]
     cosines = [np.einsum("ki,ki->k", side[place], normal) for side in (before, after)]
     return np.minimum(*cosines)
 

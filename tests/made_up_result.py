@@ -80,7 +80,7 @@ def made_up_history(rows: int = 60) -> pd.DataFrame:
 
 def made_up_boundary(mesh: BlockMesh, snapshot: Snapshot) -> pd.DataFrame:
     """Free boundary of a snapshot, its bottom in contact between 3 and 17 mm."""
-    nodes = mesh.boundary[1:-1]
+    nodes = mesh.candidates
     X, Y = mesh.points[nodes].T
     inside = (Y == 0.0) & (X > 3.0) & (X < 17.0)
     pressure = np.where(inside, 0.3 + 0.4 * np.exp(-((X - 16.0) ** 2)), 0.0)
@@ -96,7 +96,7 @@ def made_up_boundary(mesh: BlockMesh, snapshot: Snapshot) -> pd.DataFrame:
 
 def made_up_bottom(mesh: BlockMesh, rows: int = 60) -> BottomHistory:
     """A bottom that sticks at first and slips from the rear on."""
-    X, k = mesh.bottom_coordinate, np.arange(rows)[:, None]
+    X, k = mesh.from_trailing(mesh.bottom), np.arange(rows)[:, None]
     inside = (X > 3.0) & (X < 17.0)
     kind = np.where(inside, np.where(k > X, 2, 1), 0).astype(np.int8)
     pressure = np.where(inside, 0.3 + 0.01 * k, 0.0).astype(np.float32)

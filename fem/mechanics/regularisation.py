@@ -8,7 +8,7 @@ Steps that have a solution see none of it, so that the onset of sliding is the e
 the onset that have none are relaxed afterwards (`fem.stepping.relaxation`).
 
 The relaxation time is stated as a sliding distance, so that the damping acts alike at all
-velocities; most of it sits at the leading corner, where the surface folds. Too much of it holds the
+velocities; most of it sits at the leading corners, where the surface folds. Too much of it holds an
 edge back while the block slides on, which leads to another of its equilibria; too little lets steps
 become small. The default weighs both (`make convergence` goes to a hundredth of it). What it
 dissipates is audited: `snap_share` in the steps that had no solution without,
@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from fem.case.case import Case
 from fem.mesh.block import BlockMesh
@@ -36,7 +37,7 @@ class SnapDamping:
     ----------
     strength : (ne, 1) float array
         Modulus times relaxation distance ``G (s + s_edge exp(-(r/R)^2))`` [N/mm], with the
-        distance r of the element from the leading corner.
+        distance r of the element from the nearest leading corner.
     """
 
     strength: FloatArray
@@ -46,7 +47,7 @@ class SnapDamping:
         """Damping of a case; zero where its relaxation distances are."""
         solver = case.solver
         centre = mesh.points[mesh.cells].mean(axis=1)
-        r = np.linalg.norm(centre - mesh.points[mesh.bottom[-1]], axis=1)
+        r = cKDTree(mesh.points[mesh.leading_corners]).query(centre)[0]
         edge = solver.edge_viscous_distance_mm * np.exp(-((r / solver.edge_radius_mm) ** 2))
         G = case.rubber.model().initial_shear_modulus
         return cls(strength=G * (solver.viscous_distance_mm + edge)[:, None])

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -153,10 +152,11 @@ class BlockMechanics:
         self.mass = np.bincount(
             mesh.cells.ravel(), np.repeat(density * elements.volume / 4.0, 4), minlength=n
         )
-        self.candidates = mesh.boundary[1:-1]
-        size = np.full(n, np.inf)
-        np.minimum.at(size, mesh.cells, mesh.size[:, None])
-        self.boundary = Boundary.of(mesh.boundary, mesh.direction, mesh.points, size[mesh.boundary])
+        self.candidates = mesh.candidates
+        size = mesh.node_size[mesh.boundary]
+        self.boundary = Boundary.of(
+            mesh.boundary, mesh.direction, mesh.points, size, joined=mesh.joined
+        )
         self._number_equations()
         self._top_load = np.zeros(n)
         self._top_load[mesh.top] = mesh.top_shares
@@ -167,7 +167,8 @@ class BlockMechanics:
         free = np.ones((len(mesh.points), 2), dtype=bool)
         free[mesh.top, 0] = False
         free[mesh.top, 1] = not platen
-        order = nested_dissection(mesh.grid)
+        # The mirror image of a mesh has the same order.
+        order = nested_dissection(mesh.points * [mesh.direction, 1.0], mesh.cells)
         dof = np.full(free.shape, -1)
         dof[order] = np.where(free[order], np.cumsum(free[order]).reshape(-1, 2) - 1, -1)
         size = int(free.sum()) + platen
@@ -219,20 +220,20 @@ class BlockMechanics:
         Half of each adjoining edge with both nodes in contact; a lone node has half of all its
         edges' projections on the road.
         """
-        boundary = self.mesh.boundary
-        x = self.mesh.points[boundary, 0] + u[boundary, 0]
-        half = 0.5 * np.abs(np.diff(x))
-        on = np.concatenate([[False], active, [False]])
-        both = np.where(on[:-1] & on[1:], half, 0.0)
-        full = both[:-1] + both[1:]
-        lone = half[:-1] + half[1:]
-        reference = 0.5 * (self._reference_edges[:-1] + self._reference_edges[1:])
+        mesh, boundary = self.mesh, self.mesh.boundary
+        x = mesh.points[boundary, 0] + u[boundary, 0]
+        half = np.where(mesh.joined, 0.5 * np.abs(np.diff(x)), 0.0)
+        on = np.zeros(boundary.size, dtype=bool)
+        on[mesh.is_free] = active
+        full = self._at_candidates(np.where(on[:-1] & on[1:], half, 0.0))
+        lone = self._at_candidates(half)
+        reference = self.boundary.length[mesh.is_free]
         return np.where(full > 0.0, full, np.maximum(lone, 0.1 * reference))
 
-    @cached_property
-    def _reference_edges(self) -> FloatArray:
-        x = self.mesh.points[self.mesh.boundary]
-        return np.asarray(np.linalg.norm(np.diff(x, axis=0), axis=1))
+    def _at_candidates(self, halves: FloatArray) -> FloatArray:
+        """Sum of what the two edges beside each candidate hold, given by edge of the boundary."""
+        beside = np.concatenate([[0.0], halves]) + np.concatenate([halves, [0.0]])
+        return np.asarray(beside[self.mesh.is_free])
 
 
 class StepProblem:

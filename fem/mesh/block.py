@@ -1,4 +1,4 @@
-"""Graded quadrilateral mesh of the tread block, and the node sets its boundary conditions need."""
+"""Mesh of the rubber between platen and road, and the graded mesh of a rectangular block."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 from skfem import MeshQuad
 
+from fem.mesh.boundary import Chain, free_curves, named_chains, single_edges
 from fem.mesh.grading import Grading
 
 FloatArray = NDArray[np.float64]
@@ -18,31 +19,27 @@ IntArray = NDArray[np.int64]
 
 @dataclass(frozen=True, kw_only=True)
 class BlockMesh:
-    """Mesh of the undeformed block with named boundary node sets.
+    """Mesh of undeformed rubber: quadrilaterals, the nodes that are held, and what follows.
 
     Attributes
     ----------
     points : (n, 2) float array
-        Reference coordinates [mm]; the bottom is y = 0, the block spans 0 <= x <= L.
+        Reference coordinates [mm]; the road is y = 0, the rubber begins at x = 0.
     cells : (ne, 4) int array
         Counter-clockwise corner nodes of each quadrilateral.
-    bottom : int array
-        Bottom nodes, ordered from the trailing to the leading corner.
     top : int array
-        Top nodes, in the same order.
-    front, rear : int array
-        Nodes of the leading and the trailing face, from the bottom to the top.
+        Nodes that the platen holds, from the trailing to the leading end.
     direction : int
-        +1 when the leading edge is at x = L, -1 when it is at x = 0.
+        +1 when the leading edge is at the largest x, -1 when it is at x = 0.
+    breaks : tuple of float
+        Where one block ends and the next begins [mm].
     """
 
     points: FloatArray
     cells: IntArray
-    bottom: IntArray
     top: IntArray
-    front: IntArray
-    rear: IntArray
     direction: int = 1
+    breaks: tuple[float, ...] = ()
 
     @cached_property
     def mesh(self) -> MeshQuad:
@@ -50,19 +47,72 @@ class BlockMesh:
         return MeshQuad(self.points.T.copy(), self.cells.T.copy(), sort_t=False)
 
     @cached_property
-    def grid(self) -> IntArray:
-        """Node numbers by column and row, (nx + 1, ny + 1)."""
-        return np.arange(len(self.points)).reshape(-1, len(self.rear))
+    def curves(self) -> list[IntArray]:
+        """Free boundary by curve, from one end of the top to the next, trailing end first."""
+        return free_curves(self.points, self.cells, self.top, self.direction)
 
     @cached_property
     def boundary(self) -> IntArray:
-        """Free boundary nodes from the rear top corner over the bottom to the front top corner."""
-        return np.concatenate([self.rear[::-1], self.bottom[1:-1], self.front])
+        """Nodes of all curves one after another, (m,)."""
+        return np.concatenate(self.curves)
+
+    @cached_property
+    def joined(self) -> NDArray[np.bool_]:
+        """Whether an edge joins a node of `boundary` and the next one, (m - 1,)."""
+        ends = np.cumsum([len(curve) for curve in self.curves])[:-1]
+        joined = np.ones(len(self.boundary) - 1, dtype=bool)
+        joined[ends - 1] = False
+        return joined
 
     @cached_property
     def boundary_edges(self) -> IntArray:
-        """Free boundary edges, (m, 2), in the order of `boundary`."""
-        return np.column_stack([self.boundary[:-1], self.boundary[1:]])
+        """Free boundary edges, (k, 2), in the order of `boundary`."""
+        return np.column_stack([self.boundary[:-1], self.boundary[1:]])[self.joined]
+
+    @cached_property
+    def is_free(self) -> NDArray[np.bool_]:
+        """Which nodes of `boundary` the platen does not hold, (m,)."""
+        return ~np.isin(self.boundary, self.top)
+
+    @cached_property
+    def candidates(self) -> IntArray:
+        """Free nodes of `boundary`, which may come into contact, in its order."""
+        return self.boundary[self.is_free]
+
+    @cached_property
+    def chains(self) -> list[Chain]:
+        """Named pieces of the free boundary; one after another they are the `candidates`."""
+        return named_chains(self.points, self.curves, self.breaks, self.direction)
+
+    @cached_property
+    def bottoms(self) -> list[Chain]:
+        """The chains that lie on the road, from the trailing to the leading one."""
+        return [chain for chain in self.chains if chain.kind == "bottom"]
+
+    @cached_property
+    def bottom(self) -> IntArray:
+        """Nodes of all bottoms, from the trailing to the leading corner."""
+        return np.concatenate([chain.nodes for chain in self.bottoms])
+
+    @cached_property
+    def on_bottom(self) -> NDArray[np.bool_]:
+        """Which candidates belong to a bottom."""
+        return np.isin(self.candidates, self.bottom)
+
+    @cached_property
+    def bottom_lengths(self) -> FloatArray:
+        """Length of bottom that each node of `bottom` stands for [mm]."""
+        return np.concatenate([self._halves(chain.nodes) for chain in self.bottoms])
+
+    @cached_property
+    def leading_corners(self) -> IntArray:
+        """The leading end of each bottom."""
+        return np.array([chain.nodes[-1] for chain in self.bottoms])
+
+    @cached_property
+    def blocks(self) -> int:
+        """Number of blocks on the platen."""
+        return len(self.breaks) + 1
 
     @cached_property
     def size(self) -> FloatArray:
@@ -71,32 +121,60 @@ class BlockMesh:
         edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
         return np.asarray(edges.min(axis=1))
 
+    @cached_property
+    def node_size(self) -> FloatArray:
+        """Shortest edge of the cells around each node, (n,) [mm]."""
+        size = np.full(len(self.points), np.inf)
+        np.minimum.at(size, self.cells, self.size[:, None])
+        return size
+
     @property
     def length(self) -> float:
-        """Length of the block along the sliding direction [mm]."""
+        """Length along the sliding direction, grooves included [mm]."""
         return float(np.ptp(self.points[:, 0]))
 
     @property
     def height(self) -> float:
-        """Height of the block [mm]."""
+        """Height from the road to the platen [mm]."""
         return float(np.ptp(self.points[:, 1]))
+
+    @cached_property
+    def top_halves(self) -> FloatArray:
+        """Half the length between a node of the top and the next one, 0 over a gap, (m - 1,)."""
+        n, pairs = len(self.points), np.sort(np.column_stack([self.top[:-1], self.top[1:]]), axis=1)
+        edges = np.sort(single_edges(self.cells), axis=1)
+        joined = np.isin(pairs @ [n, 1], edges @ [n, 1])
+        return np.where(joined, 0.5 * np.abs(np.diff(self.points[self.top, 0])), 0.0)
+
+    @cached_property
+    def top_length(self) -> float:
+        """Length of the top, without gaps between its pieces [mm]."""
+        x = self.points[self.top, 0]
+        return float(np.ptp(x) - np.abs(np.diff(x))[self.top_halves == 0.0].sum())
 
     @cached_property
     def top_shares(self) -> FloatArray:
         """Share of the top's length that each of its nodes stands for, (m,) [-]."""
-        halves = 0.5 * np.abs(np.diff(self.points[self.top, 0])) / self.length
+        halves = self.top_halves / self.top_length
         return np.asarray(np.append(halves, 0.0) + np.append(0.0, halves))
 
-    @property
+    @cached_property
     def bottom_cell_height(self) -> float:
         """Largest height of the cells at the bottom [mm]."""
-        y = self.points[self.grid[:, :2], 1]
-        return float(np.max(y[:, 1] - y[:, 0]))
+        on = np.zeros(len(self.points), dtype=bool)
+        on[self.bottom] = True
+        y = self.points[self.cells[on[self.cells].sum(axis=1) == 2], 1]
+        return float(np.ptp(y, axis=1).max())
 
-    @property
-    def bottom_coordinate(self) -> FloatArray:
-        """Distance of the bottom nodes from the trailing corner [mm]."""
-        return np.abs(self.points[self.bottom, 0] - self.points[self.bottom[0], 0])
+    def from_trailing(self, nodes: IntArray) -> FloatArray:
+        """Distance of nodes from the trailing end along the sliding direction [mm]."""
+        x = self.points[:, 0]
+        end = x.min() if self.direction > 0 else x.max()
+        return np.abs(x[nodes] - end)
+
+    def _halves(self, nodes: IntArray) -> FloatArray:
+        halves = 0.5 * np.abs(np.diff(self.points[nodes, 0]))
+        return np.asarray(np.append(halves, 0.0) + np.append(0.0, halves))
 
 
 def graded_coordinates(length: float, cells: int, smallest: float) -> FloatArray:
@@ -117,7 +195,7 @@ def graded_coordinates(length: float, cells: int, smallest: float) -> FloatArray
     -------
     (cells + 1,) float array [mm]
     """
-    if smallest * cells >= length * (1.0 - 1e-9):
+    if cells == 1 or smallest * cells >= length * (1.0 - 1e-9):
         return np.linspace(0.0, length, cells + 1)
     target = length / smallest
 
@@ -151,7 +229,6 @@ def block_mesh(length: float, height: float, grading: Grading, direction: int = 
     x = length - graded_coordinates(length, grading.cells_x, grading.smallest_x)[::-1]
     y = graded_coordinates(height, grading.cells_y, grading.smallest_y)
     nx, ny = grading.cells_x, grading.cells_y
-    # Numbering runs up the columns: the shorter side first keeps the bandwidth small.
     node = np.arange((nx + 1) * (ny + 1)).reshape(nx + 1, ny + 1)
     gx, gy = np.meshgrid(x, y, indexing="ij")
     corners = [node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]]
@@ -161,9 +238,6 @@ def block_mesh(length: float, height: float, grading: Grading, direction: int = 
     return BlockMesh(
         points=np.column_stack([gx.ravel(), gy.ravel()]),
         cells=np.column_stack([c.ravel() for c in corners]),
-        bottom=node[:, 0].copy(),
         top=node[:, -1].copy(),
-        front=node[-1, :].copy(),
-        rear=node[0, :].copy(),
         direction=1 if direction > 0 else -1,
     )

@@ -12,14 +12,15 @@ from fem.mesh.block import BlockMesh
 
 FloatArray = NDArray[np.float64]
 
-TRAILING_FACE, BOTTOM, LEADING_FACE = "trailing face", "bottom", "leading face"
+#: What the names of the chains on the road begin with.
+BOTTOM = "bottom"
 #: Words for the kinds of `contact.active_set`: OPEN, STICK, SLIP.
 STATUS = np.array(["open", "stick", "slip"])
 
 
 @dataclass(frozen=True, kw_only=True)
 class BoundaryContact:
-    """Contact of the free boundary nodes with the road, arrays (m,) in the mesh's order.
+    """Contact of the free boundary nodes with the road, arrays (m,) in the order of the candidates.
 
     Attributes
     ----------
@@ -42,8 +43,8 @@ def boundary_table(
 ) -> pd.DataFrame:
     """A row per free boundary node, chain by chain; columns of `fem.results.columns.BOUNDARY`.
 
-    The chains are the trailing face from the platen down, the bottom with both corners, and the
-    leading face up to the platen; `s_mm` is the undeformed length along each.
+    The chains of a plain block are the trailing face from the platen down, the bottom with both
+    corners, and the leading face up to the platen; `s_mm` is the undeformed length along each.
 
     Parameters
     ----------
@@ -54,21 +55,18 @@ def boundary_table(
     T_C : (n,) float array
         Nodal temperatures [deg C].
     contact : BoundaryContact
-        Of the nodes of `mesh.boundary` without its ends, which the platen holds.
+        Of the candidates of the mesh.
     """
-    nodes = mesh.boundary[1:-1]
-    faces, corners = len(mesh.rear) - 2, len(mesh.bottom)
-    chain = np.repeat([TRAILING_FACE, BOTTOM, LEADING_FACE], [faces, corners, faces])
-    X, Y = np.abs(mesh.points[nodes, 0] - mesh.points[mesh.bottom[0], 0]), mesh.points[nodes, 1]
-    along = {TRAILING_FACE: mesh.height - Y, BOTTOM: X, LEADING_FACE: Y}
+    nodes, chains = mesh.candidates, mesh.chains
+    counts = [chain.nodes.size for chain in chains]
     x = mesh.points[nodes] + u[nodes]
     return pd.DataFrame(
         {
-            "block": 1,
-            "chain": chain,
-            "s_mm": np.select([chain == name for name in along], list(along.values())),
-            "X_mm": X,
-            "Y_mm": Y,
+            "block": np.repeat([chain.block for chain in chains], counts),
+            "chain": np.repeat([chain.name for chain in chains], counts),
+            "s_mm": np.concatenate([chain.s for chain in chains]),
+            "X_mm": mesh.from_trailing(nodes),
+            "Y_mm": mesh.points[nodes, 1],
             "x_mm": x[:, 0],
             "y_mm": x[:, 1],
             "status": STATUS[contact.kind],
@@ -81,8 +79,8 @@ def boundary_table(
 
 
 def surface_table(boundary: pd.DataFrame) -> pd.DataFrame:
-    """The bottom of the boundary, from the trailing to the leading corner."""
-    bottom = boundary[boundary["chain"] == BOTTOM].reset_index(drop=True)
+    """The bottoms of the boundary, from the trailing to the leading corner."""
+    bottom = boundary[boundary["chain"].str.startswith(BOTTOM)].reset_index(drop=True)
     return bottom.drop(columns=["block", "chain", "s_mm", "Y_mm"]).assign(
         in_contact=bottom["status"] != STATUS[0]
     )

@@ -432,7 +432,7 @@ class CoupledModel:
     def _penetration(self, problem: StepProblem, u: FloatArray) -> float:
         """Largest penetration relative to the local element size, of pairs and of others [-]."""
         x, boundary = self.mechanics.mesh.points + u, self.mechanics.boundary
-        depth = crossing_depth(x[boundary.nodes], boundary.size)
+        depth = crossing_depth(x[boundary.nodes], boundary.size, boundary.joined)
         if problem.load.pairs is None:
             return depth
         return max(depth, pair_penetration(problem.load.pairs, x, boundary))

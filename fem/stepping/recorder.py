@@ -140,7 +140,7 @@ class Recorder:
 
     def bottom(self, rows: int | None = None) -> BottomHistory:
         """Stick, slip and pressure along the bottom in the first rows of the history."""
-        X = self.mesh.bottom_coordinate
+        X = self.mesh.from_trailing(self.mesh.bottom)
         return BottomHistory(
             X_mm=X,
             kind=np.array(self.kinds[:rows], dtype=np.int8).reshape(-1, X.size),
@@ -152,9 +152,7 @@ class Recorder:
         self.kinds, self.pressures = list(bottom.kind), list(bottom.pressure)
 
     def _record_bottom(self, step: AcceptedStep) -> None:
-        first = len(self.mesh.rear) - 2
-        bottom = slice(first, first + len(self.mesh.bottom))
-        contact = step.after.contact
+        contact, bottom = step.after.contact, self.mesh.on_bottom
         self.kinds.append(contact.status.kind[bottom].astype(np.int8))
         self.pressures.append(contact.pressure[bottom].astype(np.float32))
 
@@ -162,15 +160,17 @@ class Recorder:
 def temperature_columns(mesh: BlockMesh, T_C: FloatArray, ambient_C: float) -> dict[str, float]:
     """T_max, T_edge and A_T from the nodal temperatures `T_C` (n,).
 
-    The front edge may have rolled under: it is the leading part of the bottom (see
-    `interior_peak`) and the leading face.
+    A front edge may have rolled under: it is the leading part of a bottom (see `interior_peak`)
+    and the leading face. Of several bottoms the hottest counts, and the sum of their areas.
     """
-    X, T = mesh.bottom_coordinate, T_C[mesh.bottom]
-    peak = interior_peak(X, T)
+    profiles = [(mesh.from_trailing(chain.nodes), T_C[chain.nodes]) for chain in mesh.bottoms]
+    peaks = [interior_peak(X, T) for X, T in profiles]
+    faces = [T_C[chain.nodes] for chain in mesh.chains if chain.kind == "leading"]
+    edges = [*(peak.T_edge_C for peak in peaks), *T_C[mesh.leading_corners]]
     return {
-        "T_max_C": peak.T_max_C,
-        "T_edge_C": max(peak.T_edge_C, float(T_C[mesh.front].max())),
-        "A_T_K_mm": excess_area(X, T, ambient_C),
+        "T_max_C": max(peak.T_max_C for peak in peaks),
+        "T_edge_C": float(max(*edges, *(face.max(initial=-np.inf) for face in faces))),
+        "A_T_K_mm": sum(excess_area(X, T, ambient_C) for X, T in profiles),
     }
 
 

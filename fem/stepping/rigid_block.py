@@ -18,7 +18,6 @@ from contact.partition import HeatPartition
 from fem.case.case import Case
 from fem.heat.model import HeatModel
 from fem.heat.state import HeatLoad, HeatState
-from fem.mesh.block import BlockMesh
 
 FloatArray = NDArray[np.float64]
 
@@ -126,12 +125,6 @@ class RigidStep:
         return float(np.sum(self.pressure * self.tributary_mm))
 
 
-def bottom_lengths(mesh: BlockMesh) -> FloatArray:
-    """Length of bottom each bottom node stands for, (m,) [mm]."""
-    halves = 0.5 * np.abs(np.diff(mesh.points[mesh.bottom, 0]))
-    return np.asarray(np.append(halves, 0.0) + np.append(0.0, halves))
-
-
 def slide_rigid_block(
     model: HeatModel, sliding: RigidSliding, heat: HeatState | None = None, done: int = 0
 ) -> Iterator[RigidStep]:
@@ -154,7 +147,7 @@ def slide_rigid_block(
         After each step.
     """
     mesh, speed = model.mesh, abs(sliding.velocity)
-    lengths = bottom_lengths(mesh)
+    lengths = mesh.bottom_lengths
     p = np.full(len(lengths), sliding.pressure)
     h = W_PER_M2K * sliding.conductance.conductance(p, speed)
     governing = sliding.partition.governing(p, sliding.pressure)

@@ -207,7 +207,7 @@ class _RigidRun:
 
     def boundary(self) -> pd.DataFrame:
         """Table of the free boundary: all of the bottom slips, the faces are open."""
-        on_bottom = np.isin(self.mesh.boundary[1:-1], self.mesh.bottom)
+        on_bottom = self.mesh.on_bottom
         shear = np.zeros(on_bottom.size)
         shear[on_bottom] = -self.mesh.direction * self._coefficient() * self.sliding.pressure
         contact = BoundaryContact(

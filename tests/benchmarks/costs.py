@@ -23,7 +23,6 @@ from fem.mechanics.step import BlockMechanics
 from fem.mesh.block import BlockMesh, block_mesh
 from fem.mesh.grading import NAMED_GRADINGS
 from fem.solvers.direct import SYMMETRIC
-from fem.stepping.rigid_block import bottom_lengths
 from materials.thermal import ASPHALT, RUBBER
 from tests.benchmarks.counts import counted_run
 from tests.benchmarks.measured_run import introductory
@@ -101,7 +100,7 @@ def heat_calls(mesh: BlockMesh) -> dict[str, Call]:
 
 def heat_step(mesh: BlockMesh, shiver: float) -> Call:
     """A step of a block whose shear changes by a fraction `shiver` from call to call."""
-    model, lengths, number = HeatModel(mesh, RUBBER, ASPHALT), bottom_lengths(mesh), count(1)
+    model, lengths, number = HeatModel(mesh, RUBBER, ASPHALT), mesh.bottom_lengths, count(1)
     lag = -2.0 * (1.0 - mesh.points[:, 1] / mesh.height) ** 2
 
     def load(step: int) -> HeatLoad:

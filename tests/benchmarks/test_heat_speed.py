@@ -8,7 +8,6 @@ from fem.heat.model import HeatModel
 from fem.heat.state import HeatLoad
 from fem.mesh.block import block_mesh
 from fem.mesh.grading import NAMED_GRADINGS
-from fem.stepping.rigid_block import bottom_lengths
 from materials.thermal import ASPHALT, RUBBER
 
 
@@ -16,7 +15,7 @@ def sliding(benchmark, shiver):
     """Benchmark a step of 1 mm (two sub-steps) of a block whose shear changes by `shiver`."""
     mesh = block_mesh(20.0, 8.0, NAMED_GRADINGS["default"])
     model = HeatModel(mesh, RUBBER, ASPHALT)
-    lengths = bottom_lengths(mesh)
+    lengths = mesh.bottom_lengths
     lag = -2.0 * (1.0 - mesh.points[:, 1] / 8.0) ** 2
     number = count(1)
 

@@ -54,3 +54,15 @@ def test_all_pairs_are_found_among_random_chains():
         found = {tuple(sorted(pair)) for pair in zip(*crossing_segments(chain), strict=True)}
         assert found == expected
         assert found
+
+
+def test_crossings_between_two_curves_are_found_and_the_gap_between_them_is_no_segment():
+    """The end of one curve and the start of the next lie on either side of both."""
+    curve = np.column_stack([np.linspace(0.0, 4.0, 5), np.zeros(5)])
+    other = np.array([[3.5, 2.0], [2.5, 2.0], [2.5, -0.03], [2.4, 2.0]])
+    chain, joined = np.vstack([curve, other]), np.arange(8) != 4
+    first, second = crossing_segments(chain, joined)
+    assert set(zip(first.tolist(), second.tolist(), strict=True)) == {(2, 6), (2, 7)}
+    assert crossing_depth(chain, np.ones(9), joined) == pytest.approx(0.03, rel=1e-2)
+    above = np.vstack([curve, other + np.array([0.0, 0.1])])
+    assert crossing_depth(above, np.ones(9), joined) == 0.0

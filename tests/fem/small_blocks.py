@@ -20,7 +20,17 @@ def uniform_block(length, height, nx, ny):
 
 
 def boundary_nodes(mesh):
-    return np.unique(np.concatenate([mesh.bottom, mesh.top, mesh.front, mesh.rear]))
+    return np.union1d(mesh.boundary, mesh.top)
+
+
+def leading_face(mesh):
+    """Nodes of the leading face of one block, from the corner at the road to the top."""
+    return mesh.curves[-1][-len(mesh.chains[-1].nodes) - 2 :]
+
+
+def trailing_face(mesh):
+    """Nodes of the trailing face of one block, from the corner at the road to the top."""
+    return mesh.curves[0][: len(mesh.chains[0].nodes) + 2][::-1]
 
 
 def distorted_block(length=3.0, height=2.0, nx=4, ny=3, share=0.25, seed=1):

@@ -8,6 +8,7 @@ from fem import Case, simulate
 from fem.results.columns import HISTORY, SUMMARY, SURFACE
 from fem.results.result import Result
 from fem.stepping.model_parts import mesh_of
+from tests.fem.small_blocks import leading_face
 
 COULOMB = {"law": "coulomb", "mu": 0.5, "wlf": False}
 HUEMER = {"law": "huemer"}
@@ -278,7 +279,7 @@ def test_the_simulation_uses_the_mesh_of_the_case():
     mesh = mesh_of(case_of(block={"mesh": spec}))
     assert len(mesh.cells) == 240
     assert np.diff(mesh.points[mesh.bottom, 0]).min() == pytest.approx(0.4)
-    assert np.diff(mesh.points[mesh.front, 1]).min() == pytest.approx(0.2)
+    assert np.diff(mesh.points[leading_face(mesh), 1]).min() == pytest.approx(0.2)
 
 
 @pytest.mark.parametrize("top", ["platen", "pressure"])

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from fem.case.case import Case
 from fem.mesh.block import BlockMesh
 from validation.calculix.deck_material import numbers
@@ -40,9 +38,7 @@ def event_lines(case: Case, mesh: BlockMesh, *, bonded: bool) -> list[str]:
 
 def top_loads(case: Case, mesh: BlockMesh) -> list[str]:
     """Nodal forces of the mean pressure on the front layer, which carries the back layer along."""
-    half = 0.5 * np.abs(np.diff(mesh.points[mesh.top, 0]))
-    width = np.concatenate([half, [0.0]]) + np.concatenate([[0.0], half])
-    force = -case.loading.mean_pressure_N_per_mm2 * width
+    force = -case.loading.mean_pressure_N_per_mm2 * mesh.top_length * mesh.top_shares
     pairs = zip((mesh.top + 1).tolist(), force.tolist(), strict=True)
     return [f"{node}, 2, {numbers(value)}" for node, value in pairs]
 

@@ -135,7 +135,7 @@ def _row(
     # Looked up by number: CalculiX prints a set in an order of its own.
     u = np.full_like(mesh.points, np.nan)
     u[np.array(surface.entities) - 1] = surface.values[:, :2]
-    length = contact_length((mesh.points + u)[mesh.boundary])
+    length = contact_length((mesh.points + u)[mesh.boundary], mesh.joined)
     normal, friction = float(reaction[1]), -mesh.direction * float(reaction[0])
     return {
         "deck_time": surface.time,
@@ -149,14 +149,16 @@ def _row(
     }
 
 
-def contact_length(boundary: FloatArray) -> float:
+def contact_length(boundary: FloatArray, joined: NDArray[np.bool_]) -> float:
     """Length of the road that edges with both ends on or in it cover [mm].
 
     Parameters
     ----------
     boundary : (m, 2) float array
         Current positions of the free boundary's nodes, in order [mm].
+    joined : (m - 1,) bool array
+        Whether an edge joins a node and the next one.
     """
     touching = boundary[:, 1] <= 0.0
-    both = touching[:-1] & touching[1:]
+    both = touching[:-1] & touching[1:] & joined
     return float(np.abs(np.diff(boundary[:, 0]))[both].sum())

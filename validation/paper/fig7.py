@@ -66,7 +66,7 @@ def draw(case: Case, mesh: BlockMesh) -> Figure:
 
 
 def _detail_window(mesh: BlockMesh) -> Window:
-    front = mesh.points[mesh.front[0], 0]
+    front = mesh.points[mesh.leading_corners[-1], 0]
     inner, outer = front - mesh.direction * 0.85 * DETAIL, front + mesh.direction * 0.15 * DETAIL
     return (min(inner, outer), max(inner, outer), -0.15 * DETAIL, 0.85 * DETAIL)
 

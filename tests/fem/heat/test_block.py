@@ -1,12 +1,14 @@
 """Conduction in the deformed block: pull-back, kernel, orders, bounds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 from skfem import Basis, BilinearForm, ElementQuad1, ElementVector
 
 from fem.heat.block import NODAL_RULE, BlockConduction, relative_change
-from fem.mesh.block import BlockMesh, block_mesh
+from fem.mesh.block import block_mesh
 from fem.mesh.grading import Grading
 from materials.thermal import RUBBER
 from tests.reference_solutions.conduction import constant_flux
@@ -33,15 +35,7 @@ def bend(points):
 
 
 def moved(mesh, displacement):
-    return BlockMesh(
-        points=mesh.points + displacement,
-        cells=mesh.cells,
-        bottom=mesh.bottom,
-        top=mesh.top,
-        front=mesh.front,
-        rear=mesh.rear,
-        direction=mesh.direction,
-    )
+    return replace(mesh, points=mesh.points + displacement)
 
 
 @BilinearForm

@@ -12,6 +12,7 @@ from fem.heat.state import HeatLoad, HeatState
 from fem.mesh.block import block_mesh
 from fem.mesh.grading import Grading
 from materials.thermal import ASPHALT, RUBBER
+from tests.fem.small_blocks import leading_face
 from tests.reference_solutions.conduction import (
     contact_of_two_half_spaces,
     cooling_by_radiation,
@@ -43,7 +44,7 @@ def sliding_load(model, amount=1.0, dt=0.005, sweep=1.3, power=4.0):
         contact_nodes=contact,
         power=np.linspace(0.5, 1.0, len(contact)) * power,
         conductance=np.linspace(1.0, 1.5, len(contact)) * 1e-3,
-        extra_nodes=mesh.front[2:5],
+        extra_nodes=leading_face(mesh)[2:5],
         extra_power=np.array([0.3, 0.2, 0.1]),
     )
 

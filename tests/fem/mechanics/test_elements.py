@@ -18,8 +18,10 @@ from tests.fem.small_blocks import (
     distorted_block,
     global_forces,
     global_tangent,
+    leading_face,
     random_displacement,
     solve_dirichlet,
+    trailing_face,
     uniform_block,
 )
 from tests.materials.models import MODELS
@@ -243,9 +245,9 @@ def test_homogeneous_compression_and_tension_match_the_closed_form(name, stretch
     u[:, 0] = (1.0 / stretch - 1.0) * mesh.points[:, 0]
     free = np.ones_like(u, dtype=bool)
     free[mesh.top, 1] = free[mesh.bottom, 1] = False
-    free[mesh.rear[0], 0] = False
+    free[trailing_face(mesh)[0], 0] = False
     u = solve_dirichlet(elements, u, free, tolerance=1e-11)
-    np.testing.assert_allclose(u[mesh.front, 0], (l1 - 1.0) * 3.0, rtol=1e-9)
+    np.testing.assert_allclose(u[leading_face(mesh), 0], (l1 - 1.0) * 3.0, rtol=1e-9)
     force = global_forces(elements, u)[mesh.top, 1].sum()
     assert force == pytest.approx(3.0 * P, rel=1e-9)
 

@@ -20,7 +20,7 @@ from tests.fem.contact_steps import (
     small_block,
     solved,
 )
-from tests.fem.small_blocks import consistent_pressure, uniform_block
+from tests.fem.small_blocks import consistent_pressure, leading_face, trailing_face, uniform_block
 from tests.materials.models import MODELS
 
 FORCE = 1.2
@@ -260,8 +260,8 @@ def test_the_front_face_rolls_onto_the_road():
     state = pressed(system, 2.0, mu=0.5, dt=0.02)
     state = slid(system, state, distance=2.0, speed=5.0, force=2.0, mu=0.5)
     on_road = system.candidates[state.status.active]
-    assert np.isin(on_road, system.mesh.front[1:]).any()
-    assert not np.isin(on_road, system.mesh.rear[1:]).any()
+    assert np.isin(on_road, leading_face(system.mesh)[1:]).any()
+    assert not np.isin(on_road, trailing_face(system.mesh)[1:]).any()
 
 
 def test_a_pulled_block_opens_all_nodes():

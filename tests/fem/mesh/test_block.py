@@ -7,6 +7,7 @@ import pytest
 
 from fem.mesh.block import block_mesh, graded_coordinates
 from fem.mesh.grading import NAMED_GRADINGS, Grading
+from tests.fem.small_blocks import leading_face, trailing_face
 
 
 @pytest.mark.parametrize(
@@ -45,11 +46,15 @@ def test_node_sets_lie_where_their_names_say(direction):
     front, rear = (20.0, 0.0) if direction > 0 else (0.0, 20.0)
     assert (mesh.points[mesh.bottom, 1] == 0.0).all()
     assert (mesh.points[mesh.top, 1] == 8.0).all()
-    np.testing.assert_allclose(mesh.points[mesh.front, 0], front)
-    np.testing.assert_allclose(mesh.points[mesh.rear, 0], rear)
-    assert mesh.bottom[0] == mesh.rear[0]
-    assert mesh.bottom[-1] == mesh.front[0]
-    assert (np.diff(mesh.bottom_coordinate) > 0.0).all()
+    np.testing.assert_allclose(mesh.points[leading_face(mesh), 0], front)
+    np.testing.assert_allclose(mesh.points[trailing_face(mesh), 0], rear)
+    assert mesh.bottom[0] == trailing_face(mesh)[0]
+    assert mesh.bottom[-1] == leading_face(mesh)[0] == mesh.leading_corners[0]
+    assert (np.diff(mesh.from_trailing(mesh.bottom)) > 0.0).all()
+    assert [chain.name for chain in mesh.chains] == ["trailing face", "bottom", "leading face"]
+    np.testing.assert_array_equal(
+        np.concatenate([chain.nodes for chain in mesh.chains]), mesh.candidates
+    )
     assert np.unique(mesh.boundary).size == mesh.boundary.size == 2 * 4 + 8 - 2
     assert mesh.boundary_edges.shape == (mesh.boundary.size - 1, 2)
 
@@ -59,7 +64,7 @@ def test_the_mesh_of_a_slide_to_the_left_is_the_mirror_image():
     left = block_mesh(20.0, 8.0, NAMED_GRADINGS["coarse"], -1)
     np.testing.assert_allclose(left.points[:, 0], 20.0 - right.points[:, 0])
     np.testing.assert_array_equal(left.points[:, 1], right.points[:, 1])
-    np.testing.assert_array_equal(left.bottom, right.bottom)
+    np.testing.assert_array_equal(left.boundary, right.boundary)
 
 
 def test_scikit_fem_sees_the_same_nodes_and_cells():

@@ -33,7 +33,7 @@ def rigid_block(case):
     model = HeatModel(mesh, RUBBER, ASPHALT, emissivity=0.0)
     *_, last = slide_rigid_block(model, case)
     T = last.heat.T[mesh.bottom]
-    return T.max(), np.trapezoid(T - 20.0, mesh.bottom_coordinate)
+    return T.max(), np.trapezoid(T - 20.0, mesh.from_trailing(mesh.bottom))
 
 
 def columns(case):

@@ -1,6 +1,7 @@
 """Self-contact in the equations of the block: mirrored halves, a notch that closes, the roll."""
 
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from tests.fem.self_contact_blocks import (
     overlap,
     pressed_onto_itself,
 )
-from tests.fem.small_blocks import uniform_block
+from tests.fem.small_blocks import leading_face, trailing_face, uniform_block
 
 LARGEST = 0.01
 
@@ -41,24 +42,25 @@ def bulged_half(cells_x=24, cells_y=10):
     return replace(mesh, points=np.column_stack([x, y + (1.0 - y / HEIGHT) * rise]))
 
 
-def mirrored_halves():
-    """The half on top of its mirror image, which stands on the road with its flat side.
+class StackedMesh(BlockMesh):
+    """Two pieces, of which only the upper one is held: their boundaries, not closed, one by one."""
 
-    The boundary runs down the rear of the upper half, along its bulge, back along the bulge of
-    the lower half, down its rear, along the road and up its front.
-    """
+    @cached_property
+    def curves(self):
+        half, n = bulged_half(), len(self.points) // 2
+        rear, front = trailing_face(half), leading_face(half)
+        lower = [half.bottom[::-1], rear[1:], half.top[1:], front[::-1][1:-1]]
+        return [half.boundary, n + np.concatenate(lower)]
+
+
+def mirrored_halves():
+    """The half on top of its mirror image, which stands on the road with its flat side."""
     half = bulged_half()
     n = len(half.points)
     upper = half.points + np.array([0.0, HEIGHT - INITIAL_OVERLAP])
     lower = half.points * [1.0, -1.0] + [0.0, HEIGHT]
-    chain = np.concatenate([
-        half.rear[::-1], half.bottom[1:], n + half.bottom[::-1], n + half.rear[1:],
-        n + half.top[1:], n + half.front[::-1][1:-1],
-    ])  # fmt: skip
-    return BlockMesh(
-        points=np.vstack([upper, lower]), cells=np.vstack([half.cells, n + half.cells[:, ::-1]]),
-        top=half.top, rear=chain[:2][::-1], bottom=chain[1:-1], front=chain[-2:],
-    )  # fmt: skip
+    cells = np.vstack([half.cells, n + half.cells[:, ::-1]])
+    return StackedMesh(points=np.vstack([upper, lower]), cells=cells, top=half.top)
 
 
 @pytest.fixture(scope="module")
@@ -260,9 +262,7 @@ def test_self_friction_is_part_of_the_balances():
 
 def test_a_step_in_which_the_surface_passes_through_itself_is_rejected(monkeypatch):
     """And smaller ones are tried, until the run ends with that reason."""
-    monkeypatch.setattr(
-        "fem.stepping.coupled_step.crossing_depth", lambda chain, size: 1.5 * LARGEST
-    )
+    monkeypatch.setattr("fem.stepping.coupled_step.crossing_depth", lambda *boundary: 1.5 * LARGEST)
     run = simulate(Case.from_dict({
         "block": {
             "mesh": {"cells_x": 12, "cells_y": 5, "smallest_x_mm": 1.0, "smallest_y_mm": 1.0}

@@ -99,4 +99,4 @@ def test_increment_that_was_not_printed_in_full_is_left_out(tmp_path):
 
 def test_contact_length_counts_edges_with_both_ends_down():
     points = np.array([[0, 1], [0, 0], [1, -0.1], [3, 0.1], [4, 0], [6, -0.1], [6, 2]], dtype=float)
-    assert contact_length(points) == pytest.approx(1.0 + 2.0)
+    assert contact_length(points, np.ones(len(points) - 1, dtype=bool)) == pytest.approx(1.0 + 2.0)

@@ -40,7 +40,7 @@ def test_front_window_holds_the_leading_corner_and_mirrors(direction):
         20.0, 8.0, Grading(cells_x=40, cells_y=20, smallest_x=0.2, smallest_y=0.1), direction
     )
     window = front_window(mesh.points, mesh.points, direction=direction, aspect=0.66)
-    corner = mesh.points[mesh.front[0], 0]
+    corner = mesh.points[mesh.leading_corners[0], 0]
     assert window[0] < corner < window[1]
     assert window[2] < 0.0 < window[3]
     assert (window[3] - window[2]) / (window[1] - window[0]) == pytest.approx(0.66)
