@@ -18,6 +18,9 @@ from validation.sweeps.study_runs import StudyRun, study_runs
 
 EXPONENTIAL, HUEMER = "exponential", "huemer"
 LAWS = (EXPONENTIAL, HUEMER)
+MOONEY_RIVLIN, LOAD = "mooney-rivlin-dumbbells", "yeoh-bars-series-1-load"
+YEOH = {1: "yeoh-bars-series-1", 2: "yeoh-bars-series-2"}
+VAN_DER_WAALS = {1: "van-der-waals-bars-series-1", 2: "van-der-waals-bars-series-2"}
 
 
 class UnfinishedError(Exception):

@@ -2,19 +2,46 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+
 import pandas as pd
 
-from validation.claims import section_4_2, section_5_1, section_5_1_forces, section_5_2, section_6
+from validation.analysis.paper_numbers import PAPER_N_PER_MM
+from validation.claims import section_4_2, section_5_1, section_5_2, section_6
 from validation.claims.claim import DIFFERS, HOLDS, UNCHECKED, Claim, Finding, unchecked
 from validation.claims.evidence import Evidence, UnfinishedError
+from validation.claims.phrases import say
+from validation.claims.statements import STATEMENTS
+from validation.drawing.compound_names import COMPOUND_LOOKS
 
-CLAIMS: tuple[Claim, ...] = (
-    *section_4_2.CLAIMS,
-    *section_5_1.CLAIMS,
-    *section_5_1_forces.CLAIMS,
-    *section_5_2.CLAIMS,
-    *section_6.CLAIMS,
-)
+_SECTIONS = {"4.2": section_4_2, "5.1": section_5_1, "5.2": section_5_2, "6": section_6}
+
+
+def _claims() -> Iterator[Claim]:
+    for section, statements in STATEMENTS.items():
+        for key, table in statements.items():
+            compute = None if "unchecked" in table else getattr(_SECTIONS[section], key)
+            claim = Claim(key=key, section=section, compute=compute, **table)
+            claim = replace(claim, computed=say(claim.computed, {}))
+            yield from _of_each_set(claim) if key == "force" else [claim]
+
+
+def _of_each_set(claim: Claim) -> Iterator[Claim]:
+    """The claim about each set of Table 4."""
+    for name, printed in PAPER_N_PER_MM.items():
+        assert claim.compute is not None
+        names = {"set": COMPOUND_LOOKS[name].label, "printed_N_per_mm": printed}
+        yield replace(
+            claim,
+            key=f"{claim.key}_{name}",
+            says=say(claim.says, names),
+            compute=partial(claim.compute, name=name),
+        )
+
+
+CLAIMS: tuple[Claim, ...] = tuple(_claims())
 COLUMNS = (
     "number",
     "section",

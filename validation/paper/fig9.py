@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from fem.results.snapshot import FloatArray
+from validation.analysis.shape import contour
 from validation.drawing.block_drawing import (
     Window,
     draw_outline,
@@ -76,16 +76,6 @@ def contour_table(states: dict[str, BlockState]) -> pd.DataFrame:
         x, y = contour(state).T
         parts.append(pd.DataFrame({"compound": name, "x_mm": x, "y_mm": y}))
     return pd.concat(parts, ignore_index=True)
-
-
-def contour(state: BlockState) -> FloatArray:
-    """Deformed free contour, rear face, bottom and front face, (m, 2) [mm]."""
-    X, Y = state.geometry.points.T
-    rear = np.flatnonzero(np.isclose(X, X.min()))
-    bottom = np.flatnonzero(np.isclose(Y, Y.min()))
-    front = np.flatnonzero(np.isclose(X, X.max()))
-    order = [rear[np.argsort(-Y[rear])], bottom[np.argsort(X[bottom])], front[np.argsort(Y[front])]]
-    return np.asarray(state.points[np.concatenate([order[0], order[1][1:-1], order[2]])])
 
 
 @styled

@@ -6,20 +6,12 @@ from pathlib import Path
 
 import pandas as pd
 
+from validation.analysis.paper_numbers import PAPER_N_PER_MM
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.paper.fig9 import COMPOUND
 from validation.sweeps.study import STUDIES
 from validation.sweeps.study_runs import StudyRun, study_runs
 
-#: The paper's Table 4 [kN]; its plane model has 1 m of depth, so the numbers are also N per mm.
-PAPER_N_PER_MM = {
-    "van-der-waals-bars-series-1": 4.56,
-    "van-der-waals-bars-series-2": 4.10,
-    "yeoh-bars-series-1": 4.54,
-    "yeoh-bars-series-2": 4.32,
-    "yeoh-bars-series-1-load": 4.86,
-    "mooney-rivlin-dumbbells": 4.59,
-}
 _HEADING = """\
 Table 4: friction force, mean over the sliding phase, per mm of depth.
 The paper's unit is kN for a plane model 1 m deep, which is the same number in N per mm.

@@ -9,6 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from validation.analysis.paper_numbers import MEASURED_TO_K
 from validation.drawing.style import BLUE, GREY, PAGE_WIDTH, VERMILLION, new_figure, styled
 from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS, first_key
 
@@ -22,8 +23,6 @@ HEADINGS = {
     NUMERICS: "Numerics: should not matter",
 }
 COLOURS = {PHYSICS: BLUE, NUMERICS: VERMILLION}
-#: To what the paper's temperatures were measured at best [K].
-MEASURED_TO_K = 1.0
 #: How many times longer than the next one a bar must be to be cut.
 OUTLIER = 4.0
 _ROW_MM, _AROUND_MM = 4.6, 24.0
@@ -58,11 +57,11 @@ def draw(table: pd.DataFrame) -> Figure:
     for axes, (column, title) in zip(panels, PANELS.items(), strict=True):
         _draw_panel(axes, lines, column)
         axes.set_xlabel(title)
-    panels[0].axvspan(-MEASURED_TO_K, MEASURED_TO_K, color="#EEEEEE", lw=0, zorder=0)
+    panels[0].axvspan(-MEASURED_TO_K[1], MEASURED_TO_K[1], color="#EEEEEE", lw=0, zorder=0)
     _label_lines(panels[0], lines)
     base = table.iloc[0]
     figure.suptitle(_heading(base), fontsize=8.5, fontweight="bold", x=0.01, ha="left")
-    note = f"grey band: ±{MEASURED_TO_K:g} K, to which the paper's temperatures were measured"
+    note = f"grey band: ±{MEASURED_TO_K[1]:g} K, to which the paper's temperatures were measured"
     if any(_is_cut(table[column]) for column in PANELS):
         note = f"arrow: the bar is longer than shown; {note}"
     figure.supxlabel(note, fontsize=7.0, color=GREY, x=0.99, ha="right")

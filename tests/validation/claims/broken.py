@@ -21,8 +21,14 @@ from tests.validation.claims.made_up_evidence import (
     with_summary,
     with_surface,
 )
-from validation.claims.evidence import EXPONENTIAL, HUEMER
-from validation.claims.section_5_1 import LOAD, MOONEY_RIVLIN, VAN_DER_WAALS, YEOH
+from validation.claims.evidence import (
+    EXPONENTIAL,
+    HUEMER,
+    LOAD,
+    MOONEY_RIVLIN,
+    VAN_DER_WAALS,
+    YEOH,
+)
 from validation.paper.table4 import PAPER_N_PER_MM
 
 Change = Callable[[MadeUpEvidence], None]
@@ -135,7 +141,8 @@ def _cold_edge(result: Result) -> Result:
     T = np.where(X > 15.0, 20.0, result.snapshots[-1].temperature)
     surface = result.surface
     cold = np.where(surface["X_mm"] > 15.0, 20.0, surface["T_C"])
-    return with_surface(with_snapshot(result, temperature=T), T_C=cold)
+    result = with_surface(with_snapshot(result, temperature=T), T_C=cold)
+    return with_summary(result, T_edge_C=20.0)
 
 
 def _hotter(result: Result) -> Result:

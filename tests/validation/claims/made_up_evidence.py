@@ -13,8 +13,15 @@ from fem.results.result import Result
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Yeoh
 from tests.made_up_result import made_up_result
-from validation.claims.evidence import LAWS, Evidence, Point
-from validation.claims.section_5_1 import LOAD, MOONEY_RIVLIN, VAN_DER_WAALS, YEOH
+from validation.claims.evidence import (
+    LAWS,
+    LOAD,
+    MOONEY_RIVLIN,
+    VAN_DER_WAALS,
+    YEOH,
+    Evidence,
+    Point,
+)
 from validation.paper.table4 import PAPER_N_PER_MM
 
 #: Size of the deformation, T_max and stress of each parameter set, as the paper describes them.
@@ -142,7 +149,8 @@ def with_hotter_face(result: Result, by: float) -> Result:
     """The same result with its leading face hotter, from the road up to the platen."""
     X = result.geometry.points[:, 0]
     face = np.isclose(X, X.max())
-    return with_snapshot(result, temperature=result.snapshots[-1].temperature + by * face)
+    hotter = with_snapshot(result, temperature=result.snapshots[-1].temperature + by * face)
+    return with_summary(hotter, T_edge_C=result.summary["T_edge_C"] + by)
 
 
 def with_summary(result: Result, **values: Any) -> Result:

@@ -9,11 +9,13 @@ import pytest
 from fem import simulate
 from fem.case.case import Case
 from tests.made_up_result import made_up_result
+from tests.validation.claims.made_up_evidence import with_summary
 from tests.validation.made_up_run import made_up_run
-from validation.claims import experiments, section_4_2, section_5_1_forces
-from validation.claims.claim import UNCHECKED
+from validation.claims.claim import DIFFERS, UNCHECKED
 from validation.claims.evidence import LAWS, Evidence, Point, UnfinishedError, finished
-from validation.claims.ledger import judged
+from validation.claims.ledger import CLAIMS, judged
+from validation.claims.section_5_2 import HIGH, LOW, rigid_block
+from validation.claims.statements import CHANGES, case_keys
 from validation.paper.table4 import PAPER_N_PER_MM
 from validation.sweeps.study import STUDIES, read_study
 
@@ -40,35 +42,21 @@ def test_runs_are_found_by_what_tells_them_apart(evidence):
     assert Point("yeoh-bars-series-1-load", 0.25, 50.0) in evidence.pressures
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [
-        experiments.LOWER_BLOCK,
-        experiments.FREE_TOP,
-        experiments.CONTACT_PRESSURE,
-        experiments.NO_SHIFT,
-        {"a neo-Hookean rubber": experiments.NEO_HOOKE},
-    ],
-)
-def test_every_change_that_is_tried_is_in_the_study(evidence, changes):
-    for overrides in changes.values():
-        evidence.changed(overrides)
+@pytest.mark.parametrize("change", CHANGES)
+def test_every_change_that_is_tried_is_in_the_study(evidence, change):
+    evidence.changed(case_keys(change))
 
 
 def test_the_ends_of_table_4_are_in_the_study_with_every_change(evidence):
-    order = next(c for c in section_5_1_forces.CLAIMS if c.key == "order_of_forces")
+    order = next(c for c in CLAIMS if c.key == "order_of_forces")
     assert "nan" not in judged(order, evidence).experiment
 
 
 def test_every_case_of_the_study_is_used():
     cases = read_study(STUDIES / "claims.toml")
     tried = [
-        *experiments.LOWER_BLOCK.values(),
-        *experiments.FREE_TOP.values(),
-        *experiments.CONTACT_PRESSURE.values(),
-        *experiments.NO_SHIFT.values(),
-        experiments.NEO_HOOKE,
-        *(experiments.rigid_block(law, p) for law in LAWS for p in (0.2, 0.4)),
+        *map(case_keys, CHANGES),
+        *(rigid_block(law, p) for law in LAWS for p in (LOW, HIGH)),
     ]
     low = min(PAPER_N_PER_MM, key=PAPER_N_PER_MM.__getitem__)
     of_low = [{"rubber.compound": low, **keys} for keys in tried]
@@ -94,9 +82,10 @@ def test_an_experiment_that_stopped_leaves_the_verdict(evidence):
             raise UnfinishedError("stopped")
 
     stopped = Stopped(evidence.directory)
-    stopped.introductory = made_up_result()
-    text = experiments.tried(stopped, experiments.FREE_TOP, float, bool, "K")
-    assert "no result (stopped)" in text
+    stopped.introductory = with_summary(made_up_result(), mean_contact_pressure_N_per_mm2=0.4)
+    finding = judged(next(c for c in CLAIMS if c.key == "mean_contact_pressure"), stopped)
+    assert finding.verdict == DIFFERS
+    assert "a free top under uniform pressure: no result (stopped)" in finding.experiment
 
 
 @pytest.mark.slow
@@ -119,4 +108,4 @@ def _of_the_example():
         "diffusion_sets_the_depth",
         "deforms_as_photographed",
     }
-    return [claim for claim in section_4_2.CLAIMS if claim.key not in others]
+    return [claim for claim in CLAIMS if claim.section == "4.2" and claim.key not in others]

@@ -7,7 +7,7 @@ import pytest
 
 from tests.validation.claims.broken import BROKEN
 from tests.validation.claims.made_up_evidence import MadeUpEvidence, paper_like_evidence
-from validation.claims.claim import DIFFERS, HOLDS, UNCHECKED, Finding, claim
+from validation.claims.claim import DIFFERS, HOLDS, UNCHECKED, Claim, Numbers
 from validation.claims.evidence import Evidence, UnfinishedError
 from validation.claims.ledger import CLAIMS, COLUMNS, counts, ledger_table
 from validation.claims.text import closing_line, ledger_text
@@ -61,21 +61,26 @@ def test_the_text_fits_a_terminal_and_says_every_claim(table):
 
 def test_the_verdict_is_that_of_the_comparison():
     claims = tuple(
-        claim(section="4.2", says="s", computed="c")(
-            lambda evidence, holds=holds: Finding(ours="1", criterion="k", holds=holds)
+        Claim(
+            key="k", section="4.2", says="s", ours="{x:.1p} %", holds=[comparison], compute=compute
         )
-        for holds in (True, False, None)
+        for comparison, compute in (
+            ("x < 0.5 limit", lambda evidence: ({"x": 0.9}, {"limit": 2.0})),
+            ("x < 0.5 limit", lambda evidence: ({"x": 0.9}, {"limit": 1.0})),
+            ("", None),
+        )
     )
     table = ledger_table(MadeUpEvidence(), claims)
     assert list(table["verdict"]) == [HOLDS, DIFFERS, UNCHECKED]
+    assert list(table["ours"]) == ["90.0 %", "90.0 %", "-"]
 
 
 def test_a_run_that_did_not_end_leaves_its_claims_without_verdict():
-    @claim(section="4.2", says="s", computed="c")
-    def needs_a_run(evidence: Evidence) -> Finding:
+    def needs_a_run(evidence: Evidence) -> Numbers:
         raise UnfinishedError("the run x, stopped at 3 mm: it cycles")
 
-    row = ledger_table(MadeUpEvidence(), (needs_a_run,)).iloc[0]
+    claim = Claim(key="k", section="4.2", says="s", compute=needs_a_run)
+    row = ledger_table(MadeUpEvidence(), (claim,)).iloc[0]
     assert row["verdict"] == UNCHECKED
     assert "stopped at 3 mm: it cycles" in row["explanation"]
 

@@ -11,10 +11,19 @@ from fem.results.snapshot import FloatArray
 from fem.results.surface_profile import EDGE_ZONE
 from validation.drawing.field_panels import BlockState
 from validation.drawing.state_panels import last_state
-from validation.paper.fig9 import contour
 
 #: Height above the road up to which a point of the surface counts as touching it [mm].
 TOUCHING_MM = 1e-3
+
+
+def contour(state: BlockState) -> FloatArray:
+    """Deformed free contour, rear face, bottom and front face, (m, 2) [mm]."""
+    X, Y = state.geometry.points.T
+    rear = np.flatnonzero(np.isclose(X, X.min()))
+    bottom = np.flatnonzero(np.isclose(Y, Y.min()))
+    front = np.flatnonzero(np.isclose(X, X.max()))
+    order = [rear[np.argsort(-Y[rear])], bottom[np.argsort(X[bottom])], front[np.argsort(Y[front])]]
+    return np.asarray(state.points[np.concatenate([order[0], order[1][1:-1], order[2]])])
 
 
 def deformation(result: Result) -> float:
@@ -62,6 +71,11 @@ def detached_length(result: Result) -> float:
     front = (X.max() - X) <= EDGE_ZONE * np.ptp(X)
     off = np.where(surface["in_contact"].to_numpy(dtype=bool), 0.0, 1.0)
     return float(np.trapezoid(off[front], X[front]))
+
+
+def highest_pressure(result: Result) -> float:
+    """Highest contact pressure of the block at the end [N/mm^2]."""
+    return float(result.history["max_contact_pressure_N_per_mm2"].iloc[-1])
 
 
 def interior_pressure(result: Result) -> float:

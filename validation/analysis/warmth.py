@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from scipy.optimize import brentq
+from scipy.special import erfc
 
 from fem.results.result import Result
 from fem.results.snapshot import FloatArray
 from fem.results.surface_profile import interior_peak
-from validation.claims.shape import front_face_nodes
+from validation.analysis.numbers import number
 from validation.drawing.block_drawing import cell_areas
 from validation.drawing.state_panels import last_state
 
@@ -21,16 +25,7 @@ def start_temperature(result: Result) -> float:
 
 def rise(result: Result) -> float:
     """Highest interior temperature above the start [K]."""
-    return float(result.summary["T_max_C"]) - start_temperature(result)
-
-
-def front_edge_temperature(result: Result) -> float:
-    """Highest temperature of the front edge, on the bottom or on the rolled face [deg C]."""
-    state = last_state(result)
-    face = state.snapshot.temperature[front_face_nodes(state)]
-    surface = result.surface
-    bottom = interior_peak(surface["X_mm"], surface["T_C"]).T_edge_C
-    return max(bottom, float(face.max()))
+    return number(result, "T_max_C") - start_temperature(result)
 
 
 def pressure_at_peak(result: Result) -> float:
@@ -102,25 +97,37 @@ def mean_difference(one: Result, other: Result) -> float:
     return float(np.abs(a - b).mean())
 
 
-def difference_words(one: Result, other: Result) -> str:
-    """Where two bottom surfaces differ most, and by how much where both are in contact."""
+def curve_difference(one: Result, other: Result) -> dict[str, Any]:
+    """Where two bottom surfaces differ most, and by how much where both are in contact.
+
+    Returns
+    -------
+    dict
+        ``most_K`` at ``X_mm``, ``inside_K`` in the mean where both are in contact, and ``contact``:
+        from where to where each is [mm].
+    """
     X, (a, b) = places(one), profiles([one, other])
     worst = int(np.argmax(np.abs(a - b)))
-    inside = np.all(
-        [
-            np.interp(X, r.surface["X_mm"], r.surface["in_contact"].to_numpy(dtype=float)) > 0.5
-            for r in (one, other)
-        ],
-        axis=0,
-    )
-    contact = " and ".join(_contact_words(run) for run in (one, other))
-    return (
-        f"The two differ most, by {abs(a[worst] - b[worst]):.1f} K, at X = {X[worst]:.1f} mm; "
-        f"where both are in contact, by {np.abs(a - b)[inside].mean():.2f} K in the mean. Contact "
-        f"covers {contact}."
-    )
+    surfaces = [result.surface for result in (one, other)]
+    touching = [np.interp(X, s["X_mm"], s["in_contact"].to_numpy(dtype=float)) for s in surfaces]
+    contact = [s["X_mm"][s["in_contact"].astype(bool)] for s in surfaces]
+    return {
+        "most_K": float(abs(a[worst] - b[worst])),
+        "X_mm": float(X[worst]),
+        "inside_K": float(np.abs(a - b)[np.min(touching, axis=0) > 0.5].mean()),
+        "contact": [end for along in contact for end in (along.min(), along.max())],
+    }
 
 
-def _contact_words(result: Result) -> str:
-    X = result.surface["X_mm"][result.surface["in_contact"].astype(bool)]
-    return f"X = {X.min():.1f} to {X.max():.1f} mm"
+def half_space_depth(result: Result, share: float = 0.1) -> float:
+    """Depth at which the rise is a share of the surface's under constant flux [mm].
+
+    The rise is proportional to ierfc(z/(2 sqrt(alpha t))) (Carslaw and Jaeger, Conduction of Heat
+    in Solids, 1959, section 2.9), with ierfc(x) = exp(-x^2)/sqrt(pi) - x erfc(x).
+    """
+    thermal = result.case.rubber.thermal
+    diffusivity = thermal.conductivity / (thermal.density * thermal.specific_heat)
+    sliding = result.case.loading
+    time = sliding.distance_mm / abs(sliding.velocity_mm_per_s)
+    at = brentq(lambda x: np.exp(-(x**2)) - np.sqrt(np.pi) * x * erfc(x) - share, 0.0, 5.0)
+    return float(2.0 * np.sqrt(diffusivity * time) * at)

@@ -1,4 +1,4 @@
-"""The quantities that claims compare, on fields of which they are known."""
+"""The quantities that claims and figures compare, on fields of which they are known."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from materials.compounds import COMPOUNDS
 from materials.hyperelastic import NeoHooke, Yeoh
 from tests.made_up_result import HEIGHT, LENGTH, made_up_result
 from tests.validation.claims.made_up_evidence import at, curled, with_snapshot, with_surface
-from validation.claims.paper_numbers import SIMILAR, relative_range
-from validation.claims.rubber_curves import (
+from validation.analysis.numbers import relative_range
+from validation.analysis.paper_numbers import SIMILAR
+from validation.analysis.rubber_curves import (
     secant_shear_modulus,
     stiffening,
     stiffer_ranges,
     upturn_stretch,
 )
-from validation.claims.section_4_2 import half_space_depth
-from validation.claims.shape import (
+from validation.analysis.shape import (
     amount_of_shear,
     deformation,
     detached_length,
@@ -27,10 +27,10 @@ from validation.claims.shape import (
     rolled_length,
     stress_extremes,
 )
-from validation.claims.warmth import (
+from validation.analysis.warmth import (
     cell_rises,
     column_below_peak,
-    front_edge_temperature,
+    half_space_depth,
     heated_depth,
     mean_difference,
     surface_gradient,
@@ -121,15 +121,6 @@ def test_a_block_that_is_warm_throughout_has_no_thin_layer(result):
     rises, area = cell_rises(warm(result, 1e9))
     assert rises == pytest.approx(30.0)
     assert area.sum() == pytest.approx(LENGTH * HEIGHT)
-
-
-def test_the_front_edge_is_the_hotter_of_bottom_and_face(result):
-    cold = with_snapshot(result, temperature=0.0 * result.snapshots[-1].temperature + 20.0)
-    flat = with_surface(cold, T_C=20.0)
-    X = result.geometry.points
-    face = np.where(np.isclose(X[:, 0], LENGTH) & (X[:, 1] > 0.0), 70.0, 20.0)
-    assert front_edge_temperature(flat) == 20.0
-    assert front_edge_temperature(with_snapshot(flat, temperature=face)) == 70.0
 
 
 def test_difference_of_curves_does_not_depend_on_the_nodes(result):
