@@ -14,7 +14,7 @@ PLATEN = 0.2610
 TOLERANCE = 0.09
 
 
-#: Force at 0.9852 mm with a coefficient of 0.6, where the edge snaps at 0.62 mm, in steps of 0.05 mm
+#: Force at 0.9852 mm with a coefficient of 0.6, where the edge snaps at 0.62 mm, in 0.05 mm steps
 #: with a hundredth of the damping (validation/onset.csv), and 2 % of full sliding, 3 N/mm.
 FORCE_AFTER_SNAP, TOLERANCE_AFTER_SNAP = 1.593, 0.06
 
