@@ -1,4 +1,4 @@
-"""Materials: hyperelastic energies, thermal data, time-temperature shift, named compounds."""
+"""Materials: hyperelastic energies, memory, thermal data, time-temperature shift, compounds."""
 
 from materials.compounds import COMPOUNDS, compound
 from materials.hyperelastic import (
@@ -12,6 +12,9 @@ from materials.hyperelastic import (
     Yeoh,
 )
 from materials.ogden import Ogden
+from materials.prony import Prony
+from materials.rubber import Rubber
+from materials.softening import OgdenRoxburgh
 from materials.thermal import ASPHALT, RUBBER, ThermalProperties
 from materials.wlf import WLF
 
@@ -27,6 +30,9 @@ __all__ = [
     "MooneyRivlin",
     "NeoHooke",
     "Ogden",
+    "OgdenRoxburgh",
+    "Prony",
+    "Rubber",
     "ThermalProperties",
     "VanDerWaals",
     "Yeoh",

@@ -116,6 +116,13 @@ class MixedInvariantEnergy(Hyperelastic):
             _, slope, _ = self.energy(c1 * I1b + c2 * I2b)
         return slope * (c1 * k1 + c2 * k2)
 
+    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+        """Energy per volume [N/mm^2] of a homogeneous test (see `Hyperelastic.strain_energy`)."""
+        I1b, I2b, _, _ = incompressible_kinematics(checked_stretch(stretch), mode)
+        c1, c2 = self.mixture
+        with np.errstate(all="ignore"):
+            return self.energy(c1 * I1b + c2 * I2b)[0]
+
     def log_derivatives(self, e1: Array, e2: Array) -> tuple[Array, Array]:
         """Gradient and Hessian of W in two logarithmic stretches (see `Hyperelastic`)."""
         c1, c2 = self.mixture

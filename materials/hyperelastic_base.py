@@ -83,6 +83,10 @@ class Hyperelastic(ABC):
             Force per undeformed area [N/mm^2], NaN beyond a locking stretch.
         """
 
+    @abstractmethod
+    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+        """Energy per volume [N/mm^2] of the same tests (see `nominal_stress`)."""
+
     def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
         """Whether the energy exists at the state (J > 0, finite, below a locking stretch).
 

@@ -79,13 +79,20 @@ class Ogden(Hyperelastic):
 
     def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
         """Nominal stress [N/mm^2] of a homogeneous test (see `Hyperelastic.nominal_stress`)."""
-        if mode not in TRANSVERSE:
-            raise ValueError(f"mode is {mode!r}; expected one of {', '.join(MODES)}")
-        lam, t = checked_stretch(stretch), TRANSVERSE[mode]
+        lam, t = checked_stretch(stretch), _transverse(mode)
         P = np.zeros_like(lam)
         for mu, alpha in zip(self.mu, self.alpha, strict=True):
             P = P + 2.0 * mu / alpha * (lam ** (alpha - 1.0) - lam ** (-t * alpha - 1.0))
         return P
+
+    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+        """Energy per volume [N/mm^2] of a homogeneous test (see `Hyperelastic.strain_energy`)."""
+        lam, t = checked_stretch(stretch), _transverse(mode)
+        W = np.zeros_like(lam)
+        for mu, alpha in zip(self.mu, self.alpha, strict=True):
+            powers = lam**alpha + lam ** (-t * alpha) + lam ** ((t - 1.0) * alpha)
+            W = W + 2.0 * mu / alpha**2 * (powers - 3.0)
+        return W
 
     def log_derivatives(self, e1: Array, e2: Array) -> tuple[Array, Array]:
         """Gradient and Hessian of W in two logarithmic stretches (see `Hyperelastic`)."""
@@ -102,6 +109,13 @@ class Ogden(Hyperelastic):
             hessian[:, 0, 1] += bend * third
         hessian[:, 1, 0] = hessian[:, 0, 1]
         return gradient, hessian
+
+
+def _transverse(mode: str) -> float:
+    """Exponent t of the transverse stretch lam^-t; the third is lam^(t-1)."""
+    if mode not in TRANSVERSE:
+        raise ValueError(f"mode is {mode!r}; expected one of {', '.join(MODES)}")
+    return TRANSVERSE[mode]
 
 
 def _term(mu: float, alpha: float, I1: Array, J: Array) -> EnergyDerivatives:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from materials.hyperelastic import Hyperelastic
+from materials.hyperelastic import EnergyDerivatives, Hyperelastic
 
 Array = NDArray[np.float64]
 
@@ -24,11 +24,16 @@ def cofactor(F: ArrayLike) -> Array:
     return C
 
 
+def right_cauchy_green(F: ArrayLike) -> Array:
+    """Components 11, 22, 12 of ``C = F^T F`` [-], (3, ...), of F (..., 2, 2)."""
+    F = np.asarray(F, dtype=float)
+    C = np.einsum("...ki,...kj->...ij", F, F)
+    return np.stack([C[..., 0, 0], C[..., 1, 1], C[..., 0, 1]])
+
+
 def first_piola_kirchhoff(model: Hyperelastic, F: ArrayLike) -> Array:
     """Isochoric first Piola-Kirchhoff stress ``P = 2 W_1 F + W_J cof F`` [N/mm^2], (..., 2, 2)."""
-    F = np.asarray(F, dtype=float)
-    W = model.derivatives(*invariants(F))
-    return 2.0 * W.W_1[..., None, None] * F + W.W_J[..., None, None] * cofactor(F)
+    return stress_of(model.derivatives(*invariants(F)), F)
 
 
 def dP_dF(model: Hyperelastic, F: ArrayLike) -> Array:
@@ -45,8 +50,28 @@ def dP_dF(model: Hyperelastic, F: ArrayLike) -> Array:
     ndarray, shape (..., 2, 2, 2, 2)
         ``A[i, j, k, l] = dP_ij / dF_kl``.
     """
+    return stiffness_of(model.derivatives(*invariants(F)), F)
+
+
+def stress_of(W: EnergyDerivatives, F: ArrayLike, S: ArrayLike | None = None) -> Array:
+    """``P = F (2 W_1 I + S) + W_J cof F`` [N/mm^2], (..., 2, 2).
+
+    `S` (3, ...), components 11, 22, 12, are second Piola-Kirchhoff stresses besides.
+    """
     F = np.asarray(F, dtype=float)
-    W = model.derivatives(*invariants(F))
+    P = 2.0 * W.W_1[..., None, None] * F + W.W_J[..., None, None] * cofactor(F)
+    return P if S is None else P + F @ _tensor(np.asarray(S))
+
+
+def stiffness_of(
+    W: EnergyDerivatives, F: ArrayLike, S: ArrayLike | None = None, D: ArrayLike | None = None
+) -> Array:
+    """Tangent dP/dF of `stress_of`, (..., 2, 2, 2, 2).
+
+    `D` (6, ...) is the symmetric tangent of S by the strains E11, E22, 2 E12: entries 11, 22, 33,
+    12, 13, 23.
+    """
+    F = np.asarray(F, dtype=float)
     D1, DJ = 2.0 * F, cofactor(F)
     mixed = _outer(D1, DJ)
     A = W.W_11[..., None, None, None, None] * _outer(D1, D1)
@@ -55,6 +80,13 @@ def dP_dF(model: Hyperelastic, F: ArrayLike) -> Array:
     A += 2.0 * W.W_1[..., None, None, None, None] * np.einsum("ik,jl->ijkl", np.eye(2), np.eye(2))
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
     A += W.W_J[..., None, None, None, None] * np.einsum("ik,jl->ijkl", turn, turn)
+    if S is not None:
+        A += np.einsum("ik,...jl->...ijkl", np.eye(2), _tensor(np.asarray(S)))
+    if D is not None:
+        D11, D22, D33, D12, D13, D23 = np.asarray(D)
+        rows = np.stack([[D11, D12, D13], [D12, D22, D23], [D13, D23, D33]])
+        moduli = _tensor(np.stack([_tensor(row) for row in rows]))  # the symmetric D_mjnl
+        A += np.einsum("...im,...mjnl,...kn->...ijkl", F, moduli, F)
     return A
 
 
@@ -86,6 +118,11 @@ def cauchy_stress(model: Hyperelastic, F: ArrayLike, pressure: ArrayLike = 0.0) 
     mean = np.asarray(pressure, dtype=float)
     xx, yy, xy = tau[..., 0, 0] / J, tau[..., 1, 1] / J, tau[..., 0, 1] / J
     return np.stack(np.broadcast_arrays(xx + mean, yy + mean, mean - xx - yy, xy), axis=-1)
+
+
+def _tensor(components: Array) -> Array:
+    """Symmetric tensors (..., 2, 2) of their components 11, 22, 12, shape (3, ...)."""
+    return np.moveaxis(components[np.array([[0, 2], [2, 1]])], (0, 1), (-2, -1))
 
 
 def _outer(A: Array, B: Array) -> Array:

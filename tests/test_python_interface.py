@@ -30,6 +30,20 @@ def test_van_der_waals_and_named_compounds():
     assert isinstance(compound("yeoh-bars-series-2"), Yeoh)
 
 
+def test_rubber_with_a_memory_gives_the_stress_of_a_history():
+    from materials import WLF, NeoHooke, OgdenRoxburgh, Prony, Rubber
+
+    rubber = Rubber(
+        elastic=NeoHooke(G=0.7),
+        viscous=Prony(g=[0.3], tau_s=[0.1], moduli="long-term", shift=WLF(d1=7.0, d2_K=120.0)),
+        damage=OgdenRoxburgh(r=2.0, m=0.3, beta=0.1),
+    )
+    time, stretch = np.array([0.0, 0.1, 5.0, 5.1]), np.array([1.0, 1.5, 1.5, 1.2])
+    for mode in ("uniaxial", "equibiaxial", "planar"):
+        stress = rubber.nominal_stress(time, stretch, mode, T_C=30.0)
+        assert stress[1] > stress[2] > stress[3]
+
+
 def test_wlf_equivalent_velocity_falls_with_temperature():
     from materials import WLF
 
