@@ -143,8 +143,8 @@ def is_covered_elsewhere(line: str) -> bool:
 
 def example_lines() -> list[str]:
     """Commands of examples/README.md for every example, cut short, on the README's sweep."""
-    commands = re.findall(r"`(treadfem [^`]*)`", EXAMPLES)
-    names = re.findall(r"^\| `(\w+)\.toml`", EXAMPLES, flags=re.MULTILINE)
+    commands = [" ".join(line.split()) for line in re.findall(r"`(treadfem [^`]*)`", EXAMPLES)]
+    names = re.findall(r"^\| `(\w+)\.toml` \| case:", EXAMPLES, flags=re.MULTILINE)
     short = " --set loading.distance_mm=1 --set block.mesh=coarse"
     return [
         line.replace("NAME", name).replace("RESULTS_DIR", "results/my_study")
@@ -193,7 +193,11 @@ def test_the_readme_has_every_command():
 
 
 def test_examples_are_all_listed_and_run():
-    files = {path.name for path in (ROOT / "examples").glob("*.toml")}
+    files = {
+        path.name
+        for path in (ROOT / "examples").glob("*.toml")
+        if "[loading]" in path.read_text(encoding="utf-8")
+    }
     run = {Path(words_of(line)[1]).name for line in example_lines() if " run " in line}
     assert run == files
 

@@ -1,0 +1,49 @@
+"""Every script in examples/ runs as it stands, and leaves the picture it promises."""
+
+from __future__ import annotations
+
+import re
+import runpy
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pytest
+
+ROOT = Path(__file__).parents[1]
+EXAMPLES = ROOT / "examples"
+LISTED = (EXAMPLES / "README.md").read_text(encoding="utf-8")
+#: Scripts and the pictures they leave, in the order of the table: later ones read earlier runs.
+SCRIPTS = dict(
+    re.findall(r"^\| `(\w+\.py)` \|.*\| `([\w/]+\.png)` \|$", LISTED, flags=re.MULTILINE)
+)
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("desk")
+
+
+@pytest.fixture
+def one_process(monkeypatch):
+    """Sweeps in this process: starting others takes longer than their short cases."""
+    monkeypatch.setattr("validation.sweeps.sweep.number_of_workers", lambda *_: 1)
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_script_runs_and_leaves_its_picture(script, desk, one_process, monkeypatch, capsys):
+    monkeypatch.chdir(desk)
+    monkeypatch.setattr(plt, "show", lambda: pytest.fail("a script must not wait for a window"))
+    runpy.run_path(str(EXAMPLES / script), run_name="__main__")
+    assert capsys.readouterr().out
+    assert plt.get_fignums() == []
+    assert plt.imread(desk / SCRIPTS[script]).std() > 0.02
+
+
+def test_every_file_is_in_the_table():
+    files = {path.name for path in EXAMPLES.iterdir() if path.suffix in (".py", ".toml")}
+    assert files == set(re.findall(r"^\| `([\w.]+)` \|", LISTED, flags=re.MULTILINE))
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_script_is_short(script):
+    assert len((EXAMPLES / script).read_text(encoding="utf-8").splitlines()) <= 60
