@@ -6,10 +6,19 @@ In plane strain (F33 = 1) every isotropic isochoric energy is a function of ``I1
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from materials.material import (
+    Deformation,
+    EnergyDerivatives,
+    MaterialStep,
+    Response,
+    StepEnd,
+    Stiffness,
+)
 
 Array = NDArray[np.float64]
 Mode = Literal["uniaxial", "equibiaxial", "planar"]
@@ -17,20 +26,6 @@ MODES: tuple[str, ...] = get_args(Mode)
 
 #: Exponent t of the transverse stretch lam^-t of the homogeneous incompressible tests, by mode.
 TRANSVERSE = {"uniaxial": 0.5, "equibiaxial": 2.0, "planar": 1.0}
-
-
-class EnergyDerivatives(NamedTuple):
-    """Isochoric energy per reference volume and its partial derivatives [N/mm^2].
-
-    ``W_1`` is dW/dI1 at constant J, ``W_J`` is dW/dJ at constant I1, and so on.
-    """
-
-    W: Array
-    W_1: Array
-    W_J: Array
-    W_11: Array
-    W_1J: Array
-    W_JJ: Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,6 +81,26 @@ class Hyperelastic(ABC):
     @abstractmethod
     def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
         """Energy per volume [N/mm^2] of the same tests (see `nominal_stress`)."""
+
+    def virgin(self, points: tuple[int, ...]) -> Array | None:
+        """No state variables: a hyperelastic law remembers nothing (see `materials.material`)."""
+        return None
+
+    def step(self, state: Array | None, dt: float, T_C: Array | None) -> MaterialStep:
+        """The law itself: all steps are alike."""
+        return self
+
+    def respond(self, deformation: Deformation) -> Response:
+        """Response of the invariants alone."""
+        return Response(self.derivatives(deformation.I1, deformation.J))
+
+    def stiffness(self, deformation: Deformation, cells: slice) -> Stiffness | None:
+        """No stresses besides those of the invariants."""
+        return None
+
+    def end(self, deformation: Deformation) -> StepEnd:
+        """The energy."""
+        return StepEnd(stored=self.derivatives(deformation.I1, deformation.J).W)
 
     def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
         """Whether the energy exists at the state (J > 0, finite, below a locking stretch).

@@ -90,12 +90,13 @@ def stiffness_of(
     return A
 
 
-def cauchy_stress(model: Hyperelastic, F: ArrayLike, pressure: ArrayLike = 0.0) -> Array:
-    """Cauchy stress [N/mm^2] of the isochoric energy and a mean stress.
+def cauchy_stress(P: ArrayLike, F: ArrayLike, pressure: ArrayLike = 0.0) -> Array:
+    """Cauchy stress [N/mm^2] of an isochoric first Piola-Kirchhoff stress and a mean stress.
 
     Parameters
     ----------
-    model : Hyperelastic
+    P : array_like, shape (..., 2, 2)
+        First Piola-Kirchhoff stress of an isochoric energy [N/mm^2].
     F : array_like, shape (..., 2, 2)
         Deformation gradients [-].
     pressure : array_like, shape (...)
@@ -111,9 +112,8 @@ def cauchy_stress(model: Hyperelastic, F: ArrayLike, pressure: ArrayLike = 0.0) 
     An isochoric energy gives a deviatoric stress, hence ``sigma_zz = -(sigma_xx + sigma_yy)``
     before the mean stress is added.
     """
-    F = np.asarray(F, dtype=float)
+    P, F = np.asarray(P, dtype=float), np.asarray(F, dtype=float)
     _, J = invariants(F)
-    P = first_piola_kirchhoff(model, F)
     tau = np.einsum("...ij,...kj->...ik", P, F)
     mean = np.asarray(pressure, dtype=float)
     xx, yy, xy = tau[..., 0, 0] / J, tau[..., 1, 1] / J, tau[..., 0, 1] / J

@@ -163,14 +163,16 @@ class HeatModel:
 
         flow_at_nodes = np.zeros(self.block.n)
         flow_at_nodes[load.contact_nodes] = flow
-        heat = load.dt * (float(np.sum(load.power)) + float(np.sum(load.extra_power)))
+        heat = load.dt * (float(np.sum(load.power)) + float(np.sum(load.surface_power)))
+        in_bulk = 0.0 if load.bulk_power is None else load.dt * float(np.sum(load.bulk_power))
         return HeatState(
             T=T,
             road=road,
             displacement=load.displacement,
             conduction_displacement=reference,
             flow=flow_at_nodes,
-            generated=state.generated + heat,
+            generated=state.generated + heat + in_bulk,
+            in_bulk=state.in_bulk + in_bulk,
             in_block=self.block.heat_content(T, self.ambient_C),
             in_road=self.road.heat_content(road.excess),
             radiated=state.radiated + radiated,
@@ -247,10 +249,12 @@ class HeatModel:
         covered = np.zeros(self.block.n, dtype=bool)
         covered[load.contact_nodes] = True
         piece = self._pieces(positions, covered)[load.contact_nodes]
-        covered[load.extra_nodes] = True
+        covered[load.surface_nodes] = True
         source = np.zeros(self.block.n)
         np.add.at(source, load.contact_nodes, load.power)
-        np.add.at(source, load.extra_nodes, load.extra_power)
+        np.add.at(source, load.surface_nodes, load.surface_power)
+        if load.bulk_power is not None:
+            source += load.bulk_power
         return _Interval(
             dt=dt,
             factor=self._factor(reference, dt),

@@ -39,8 +39,11 @@ class HeatLoad:
         Frictional heat of each contact node per mm depth, kappa mu lambda |w| [mJ/s].
     conductance : (m,) float array
         Gap conductance times tributary length of each contact node [N/(s K)].
-    extra_nodes, extra_power : (k,) int array, (k,) float array
-        Further heat sources (friction of the block on itself) [mJ/s].
+    surface_nodes, surface_power : (k,) int array, (k,) float array
+        Further heat sources on surfaces that something covers, so that they do not radiate
+        (friction of the block on itself) [mJ/s].
+    bulk_power : (n,) float array or None
+        Heat made inside the block, by node [mJ/s].
     """
 
     dt: float
@@ -49,8 +52,9 @@ class HeatLoad:
     contact_nodes: IntArray
     power: FloatArray
     conductance: FloatArray
-    extra_nodes: IntArray = field(default_factory=_no_nodes)
-    extra_power: FloatArray = field(default_factory=_no_values)
+    surface_nodes: IntArray = field(default_factory=_no_nodes)
+    surface_power: FloatArray = field(default_factory=_no_values)
+    bulk_power: FloatArray | None = None
 
     def __post_init__(self) -> None:
         if not self.dt > 0.0:
@@ -61,9 +65,9 @@ class HeatLoad:
                 f"{m} contact nodes with {len(self.power)} powers and "
                 f"{len(self.conductance)} conductances, expected as many"
             )
-        if len(self.extra_nodes) != len(self.extra_power):
+        if len(self.surface_nodes) != len(self.surface_power):
             raise ValueError(
-                f"{len(self.extra_nodes)} extra nodes with {len(self.extra_power)} powers, "
+                f"{len(self.surface_nodes)} surface nodes with {len(self.surface_power)} powers, "
                 "expected as many"
             )
 
@@ -84,9 +88,9 @@ class HeatState:
         Displacement for which the conduction matrix in use was made [mm].
     flow : (n,) float array
         Heat flow from the block's nodes to the road in the last sub-step [mJ/s] per mm depth.
-    generated, radiated, left : float
-        Heat made, heat lost by radiation of block and road, and heat in the road columns that
-        were dropped far behind the block [mJ/mm].
+    generated, in_bulk, radiated, left : float
+        Heat made, the part of it made inside the block, heat lost by radiation of block and
+        road, and heat in the road columns that were dropped far behind the block [mJ/mm].
     in_block, in_road : float
         Heat stored above the initial temperature [mJ/mm].
     sub_steps, exchange_iterations : int
@@ -99,6 +103,7 @@ class HeatState:
     conduction_displacement: FloatArray
     flow: FloatArray
     generated: float = 0.0
+    in_bulk: float = 0.0
     in_block: float = 0.0
     in_road: float = 0.0
     radiated: float = 0.0

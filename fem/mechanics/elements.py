@@ -18,6 +18,7 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from functools import cached_property
 
@@ -26,7 +27,14 @@ from numpy.typing import NDArray
 from skfem import Basis, ElementQuad1, ElementVector
 
 from fem.mesh.block import BlockMesh
-from materials.hyperelastic import EnergyDerivatives, Hyperelastic
+from fem.solvers.sparse_pattern import summed
+from materials.material import (
+    EnergyDerivatives,
+    InPlane,
+    Material,
+    MaterialStep,
+    Stiffness,
+)
 from materials.plane_strain import cauchy_stress
 
 FloatArray = NDArray[np.float64]
@@ -68,13 +76,19 @@ class Kinematics:
         return self.F11**2 + self.F12**2 + self.F21**2 + self.F22**2 + 1.0
 
     @cached_property
-    def green_lagrange(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Green-Lagrange strains E11, E22, E12, each (ne, 4) [-]."""
-        return (
-            0.5 * (self.F11**2 + self.F21**2 - 1.0),
-            0.5 * (self.F12**2 + self.F22**2 - 1.0),
-            0.5 * (self.F11 * self.F12 + self.F21 * self.F22),
+    def C(self) -> InPlane:
+        """Right Cauchy-Green tensor F^T F, each component (ne, 4) [-]."""
+        return InPlane(
+            self.F11**2 + self.F21**2,
+            self.F12**2 + self.F22**2,
+            self.F11 * self.F12 + self.F21 * self.F22,
         )
+
+    @cached_property
+    def green_lagrange(self) -> InPlane:
+        """Green-Lagrange strains, each component (ne, 4) [-]."""
+        C = self.C
+        return InPlane(0.5 * (C.xx - 1.0), 0.5 * (C.yy - 1.0), 0.5 * C.xy)
 
     def part(self, cells: slice) -> Kinematics:
         """Kinematics of some of the elements."""
@@ -97,25 +111,33 @@ class Viscosity:
     ----------
     rate : float or (ne, 1) float array
         eta/dt [N/mm^2].
-    strain_n : tuple of (ne, 4) arrays
-        E11, E22, E12 at the last accepted step.
+    strain_n : InPlane of (ne, 4) arrays
+        Green-Lagrange strains at the last accepted step.
     """
 
     rate: float | FloatArray
-    strain_n: tuple[FloatArray, FloatArray, FloatArray]
+    strain_n: InPlane
 
-    def part(self, cells: slice) -> Viscosity:
-        """The term for some of the elements."""
-        rate = np.asarray(self.rate)
-        rate = rate[cells] if rate.ndim else rate
-        E11, E22, E12 = (E[cells] for E in self.strain_n)
-        return Viscosity(rate=rate, strain_n=(E11, E22, E12))
-
-    def stress(self, kinematics: Kinematics) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Viscous second Piola-Kirchhoff stresses S11, S22, S12 [N/mm^2]."""
+    def stress(self, kinematics: Kinematics) -> InPlane:
+        """Viscous second Piola-Kirchhoff stresses [N/mm^2]."""
         pairs = zip(kinematics.green_lagrange, self.strain_n, strict=True)
-        S11, S22, S12 = (self.rate * (E - E_n) for E, E_n in pairs)
-        return S11, S22, S12
+        return InPlane(*(self.rate * (E - E_n) for E, E_n in pairs))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Past:
+    """What the elements know of the last accepted step.
+
+    Attributes
+    ----------
+    viscosity : Viscosity or None
+        Kelvin-Voigt term of the step.
+    material : MaterialStep or None
+        The material in the step, points (ne, 4); None: in no time, from its virgin state.
+    """
+
+    viscosity: Viscosity | None = None
+    material: MaterialStep | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,22 +150,25 @@ class ElementForces:
         Internal forces of each element, dofs (node, component) interleaved [N/mm].
     pressure_residual : (ne,) float array
         ``U'(Jbar) - p`` [N/mm^2].
+    energy : EnergyDerivatives
+        Of the material at the Gauss points [N/mm^2].
+    S : InPlane or None
+        Second Piola-Kirchhoff stresses besides those of the invariants [N/mm^2].
+    past : Past
+        What the step began from.
     """
 
     residual: FloatArray
     pressure_residual: FloatArray
     kinematics: Kinematics
-    derivatives: EnergyDerivatives
+    energy: EnergyDerivatives
+    S: InPlane | None
     pressure: FloatArray
+    past: Past
 
-    def part(self, cells: slice) -> ElementForces:
-        """Forces of some of the elements."""
-        return ElementForces(
-            residual=self.residual[cells], pressure_residual=self.pressure_residual[cells],
-            kinematics=self.kinematics.part(cells),
-            derivatives=EnergyDerivatives(*(W[cells] for W in self.derivatives)),
-            pressure=self.pressure[cells],
-        )  # fmt: skip
+
+#: No viscosity, and the virgin material.
+NO_PAST = Past()
 
 
 class Q1P0Elements:
@@ -153,18 +178,19 @@ class Q1P0Elements:
     ----------
     mesh : BlockMesh
         Reference mesh.
-    model : Hyperelastic
-        Isochoric energy.
+    model : Material
+        Isochoric energy, or a material with a state.
     K_bulk : float
         Bulk modulus [N/mm^2].
     """
 
-    def __init__(self, mesh: BlockMesh, model: Hyperelastic, K_bulk: float) -> None:
+    def __init__(self, mesh: BlockMesh, model: Material, K_bulk: float) -> None:
         self.mesh, self.model, self.K_bulk = mesh, model, K_bulk
         self.basis = Basis(mesh.mesh, ElementVector(ElementQuad1()), intorder=3)
         scalar = self.basis.with_element(ElementQuad1())
         gradients = np.stack([scalar.basis[a][0].grad for a in range(4)])  # (a, I, ne, q)
         self.weights = np.ascontiguousarray(scalar.dx)
+        self._shapes = np.array([np.asarray(scalar.basis[a][0])[0] for a in range(4)])  # (a, q)
         self.G = np.ascontiguousarray(gradients.transpose(2, 3, 0, 1))  # (ne, q, a, I)
         self._G_flat = np.ascontiguousarray(gradients.transpose(2, 0, 3, 1)).reshape(-1, 4, 8)
         self._GG = np.einsum("eqaI,eqbJ->eqIJab", self.G, self.G).reshape(-1, 16, 16)
@@ -203,23 +229,26 @@ class Q1P0Elements:
         """Whether the energy exists at every Gauss point."""
         return bool(self.model.admissible(kinematics.I1, kinematics.J).all())
 
-    def forces(
-        self, p: FloatArray, kin: Kinematics, viscosity: Viscosity | None = None
-    ) -> ElementForces:
+    @cached_property
+    def virgin(self) -> FloatArray | None:
+        """State of the material before the first step, (k, ne, 4); None where it has none."""
+        return self.model.virgin(self.weights.shape)
+
+    def material(self, past: Past) -> MaterialStep:
+        """The material in a step."""
+        return past.material or self._at_rest
+
+    @cached_property
+    def _at_rest(self) -> MaterialStep:
+        return self.model.step(self.virgin, 0.0, None)
+
+    def forces(self, p: FloatArray, kin: Kinematics, past: Past = NO_PAST) -> ElementForces:
         """Internal nodal forces at kinematics `kin` and element pressures `p` (ne,)."""
-        d = self.model.derivatives(kin.I1, kin.J)
-        w = self.weights
-        A11, A22, A12 = 2.0 * w * d.W_1, 2.0 * w * d.W_1, np.zeros_like(w)
-        if viscosity is not None:
-            S11, S22, S12 = viscosity.stress(kin)
-            A11, A22, A12 = A11 + w * S11, A22 + w * S22, w * S12
-        c = w * d.W_J
-        # P w, as rows of F (2 W_1 I + S) + W_J cof F
-        P = np.empty((kin.J.shape[0], 4, 2, 2))
-        P[..., 0, 0] = kin.F11 * A11 + kin.F12 * A12 + c * kin.F22
-        P[..., 0, 1] = kin.F11 * A12 + kin.F12 * A22 - c * kin.F21
-        P[..., 1, 0] = kin.F21 * A11 + kin.F22 * A12 - c * kin.F12
-        P[..., 1, 1] = kin.F21 * A12 + kin.F22 * A22 + c * kin.F11
+        energy, S = self.material(past).respond(kin)
+        if past.viscosity is not None:
+            viscous = past.viscosity.stress(kin)
+            S = viscous if S is None else InPlane(*map(np.add, S, viscous))
+        P = _first_piola_kirchhoff(kin, energy, S, self.weights)
         P_flat = P.transpose(0, 1, 3, 2).reshape(-1, 8, 2)
         residual = np.matmul(self._G_flat, P_flat).reshape(-1, 8)
         b = kin.area_gradient.reshape(-1, 8)
@@ -228,11 +257,13 @@ class Q1P0Elements:
             residual=residual + dU_dJ[:, None] * b,
             pressure_residual=dU_dJ - p,
             kinematics=kin,
-            derivatives=d,
+            energy=energy,
+            S=S,
             pressure=p,
+            past=past,
         )
 
-    def tangent(self, forces: ElementForces, viscosity: Viscosity | None = None) -> FloatArray:
+    def tangent(self, forces: ElementForces) -> FloatArray:
         """Element tangents with the condensed pressure [N/mm^2].
 
         Returns
@@ -244,15 +275,30 @@ class Q1P0Elements:
         K = np.empty((len(self.cells), 2, 2, 4, 4))
         for start in range(0, len(K), BATCH):
             cells = slice(start, start + BATCH)
-            part = forces.part(cells)
-            viscous = None if viscosity is None else viscosity.part(cells)
-            A = _weighted_stiffness(part, self.weights[cells], viscous)
-            np.matmul(A, self._GG[cells], out=K[cells].reshape(-1, 4, 16))
+            kin, w = forces.kinematics.part(cells), self.weights[cells]
+            energy = EnergyDerivatives(*(W[cells] for W in forces.energy))
+            A = _weighted_stiffness(kin, energy, w, forces.pressure[cells])
+            if forces.S is not None:
+                S = InPlane(*(w * component[cells] for component in forces.S))
+                D = self._stiffness(kin, forces.past, cells)
+                _add_second_stress(A, kin, S, Stiffness(*(w * component for component in D)))
+            A[:, 2] = A[:, 1]
+            np.matmul(A.reshape(-1, 4, 16), self._GG[cells], out=K[cells].reshape(-1, 4, 16))
             K[cells, 1, 0] = K[cells, 0, 1].transpose(0, 2, 1)
-            b = part.kinematics.area_gradient.transpose(0, 2, 1)
+            b = kin.area_gradient.transpose(0, 2, 1)
             c = b * (self.K_bulk / self.volume[cells])[:, None, None]
             K[cells] += c[:, :, None, :, None] * b[:, None, :, None, :]
         return K
+
+    def _stiffness(self, kin: Kinematics, past: Past, cells: slice) -> Iterator[FloatArray]:
+        """Tangent of the stresses S of some of the elements, in the order of `Stiffness`."""
+        parts = []
+        if past.viscosity is not None:
+            rate = np.broadcast_to(past.viscosity.rate, (len(self.cells), 1))[cells]
+            parts.append(Stiffness(rate, rate, 0.5 * rate, *3 * [np.zeros(1)]))
+        D = self.material(past).stiffness(kin, cells)
+        parts += [] if D is None else [D]
+        return (sum(components) for components in zip(*parts, strict=True))
 
     def pressure_increment(self, forces: ElementForces, du: FloatArray) -> FloatArray:
         """Change of the element pressures with `du` (n, 2) by the linearised pressure law."""
@@ -261,16 +307,26 @@ class Q1P0Elements:
         growth = np.einsum("ej,ej->e", b, du_e)
         return self.K_bulk / self.volume * growth + forces.pressure_residual
 
-    def strain_energy(self, kin: Kinematics) -> float:
-        """Stored energy per depth [mJ/mm]."""
-        W = self.model.derivatives(kin.I1, kin.J).W
+    def strain_energy(self, kin: Kinematics, stored: FloatArray) -> float:
+        """Stored energy per depth [mJ/mm] with that of the material (ne, 4) [N/mm^2]."""
         volumetric = 0.5 * self.K_bulk * (kin.Jbar - 1.0) ** 2
-        return float(np.sum(self.weights * W) + np.sum(self.volume * volumetric))
+        return self.integral(stored) + float(np.sum(self.volume * volumetric))
 
-    def cauchy(self, kin: Kinematics) -> FloatArray:
+    def integral(self, density: FloatArray | None) -> float:
+        """Integral over the block of a density (ne, 4) per reference volume; 0 of None."""
+        return 0.0 if density is None else float(np.sum(self.weights * density))
+
+    def nodal_integral(self, density: FloatArray) -> FloatArray:
+        """Integrals over the block of a density (ne, 4) times the shape functions, (n,)."""
+        parts = (self.weights * density) @ self._shapes.T
+        n = len(self.mesh.points)
+        return summed(self.cells.ravel(), parts.ravel(), n)
+
+    def cauchy(self, kin: Kinematics, past: Past = NO_PAST) -> FloatArray:
         """Volume-averaged Cauchy stresses xx, yy, zz, xy of the cells, (ne, 4) [N/mm^2]."""
-        pressure = (self.K_bulk * (kin.Jbar - 1.0))[:, None]
-        sigma = cauchy_stress(self.model, kin.matrix, pressure)
+        energy, S = self.material(past).respond(kin)
+        P = _first_piola_kirchhoff(kin, energy, S, 1.0)
+        sigma = cauchy_stress(P, kin.matrix, (self.K_bulk * (kin.Jbar - 1.0))[:, None])
         share = self.weights / self.volume[:, None]
         return np.asarray(np.einsum("eqc,eq->ec", sigma, share))
 
@@ -282,47 +338,75 @@ class Q1P0Elements:
         return np.asarray(np.sum(share * np.sqrt(half_sum + root), axis=1))
 
 
-def _weighted_stiffness(
-    forces: ElementForces, weights: FloatArray, viscosity: Viscosity | None
+def _first_piola_kirchhoff(
+    kin: Kinematics, energy: EnergyDerivatives, S: InPlane | None, w: FloatArray | float
 ) -> FloatArray:
-    """Weighted dP_im/dF_jn as (ne, 4, 16): rows ij = 11, 12, 21, 22, columns (q, m, n).
+    """``w P = w F (2 W_1 I + S) + w W_J cof F``, (ne, 4, 2, 2)."""
+    A11 = 2.0 * w * energy.W_1
+    A22, A12 = A11, np.zeros_like(A11)
+    if S is not None:
+        A11, A22, A12 = A11 + w * S.xx, A22 + w * S.yy, w * S.xy
+    c = w * energy.W_J
+    P = np.empty((*kin.J.shape, 2, 2))
+    P[..., 0, 0] = kin.F11 * A11 + kin.F12 * A12 + c * kin.F22
+    P[..., 0, 1] = kin.F11 * A12 + kin.F12 * A22 - c * kin.F21
+    P[..., 1, 0] = kin.F21 * A11 + kin.F22 * A12 - c * kin.F12
+    P[..., 1, 1] = kin.F21 * A12 + kin.F22 * A22 + c * kin.F11
+    return P
 
-    The row 21 repeats 12; what it leads to is the transpose of that. The element pressure acts on
-    the Hessian of the area, which is the integral of that of J.
+
+#: Rows of the stiffness and the components i, j of the force and the displacement they are for.
+#: The row 21 repeats 12; what it leads to is the transpose of that.
+_ROWS = ((0, 0, 0), (1, 0, 1), (3, 1, 1))
+
+
+def _weighted_stiffness(
+    kin: Kinematics, d: EnergyDerivatives, w: FloatArray, pressure: FloatArray
+) -> FloatArray:
+    """Weighted dP_im/dF_jn of the energy as (ne, 4, 4, 4): rows ij = 11, 12, 21, 22, (q, m, n).
+
+    The row 21 is left out. The element pressure acts on the Hessian of the area, which is the
+    integral of that of J.
     """
-    kin, d, w = forces.kinematics, forces.derivatives, weights
     F = ((kin.F11, kin.F12), (kin.F21, kin.F22))
     cof = ((kin.F22, -kin.F21), (-kin.F12, kin.F11))
     w_11, w_1J, w_JJ = 4.0 * w * d.W_11, 2.0 * w * d.W_1J, w * d.W_JJ
-    w_J = w * (d.W_J + forces.pressure[:, None])
-    S = np.array([[1.0, 0.0], [0.0, 1.0]])[:, :, None, None] * (2.0 * w * d.W_1)
-    half_F = None
-    if viscosity is not None:
-        S11, S22, S12 = viscosity.stress(kin)
-        S += np.array([[S11, S12], [S12, S22]]) * w
-        half = 0.5 * viscosity.rate * w
-        half_F = [[half * F_im for F_im in row] for row in F]
+    w_J, w_1 = w * (d.W_J + pressure[:, None]), 2.0 * w * d.W_1
     A = np.empty((len(w), 4, 4, 4))
-    for row, i, j in ((0, 0, 0), (1, 0, 1), (3, 1, 1)):
+    for row, i, j in _ROWS:
         left = [w_11 * F[i][m] + w_1J * cof[i][m] for m in (0, 1)]
         right = [w_1J * F[i][m] + w_JJ * cof[i][m] for m in (0, 1)]
-        dot = 0.0 if half_F is None else half_F[i][0] * F[j][0] + half_F[i][1] * F[j][1]
         for m, n in ((0, 0), (0, 1), (1, 0), (1, 1)):
             if i == j and m > n:  # symmetric
                 A[:, row, :, 2 * m + n] = A[:, row, :, 2 * n + m]
                 continue
             value = left[m] * F[j][n] + right[m] * cof[j][n]
-            if i == j:
-                value += S[m, n]
-            elif m != n:
+            if i == j and m == n:
+                value += w_1
+            elif i != j and m != n:
                 value += w_J if m < n else -w_J
-            if half_F is not None:
-                value += half_F[i][n] * F[j][m]
-                if m == n:
-                    value += dot
             A[:, row, :, 2 * m + n] = value
-    A[:, 2] = A[:, 1]
-    return A.reshape(-1, 4, 16)
+    return A
+
+
+def _add_second_stress(A: FloatArray, kin: Kinematics, S: InPlane, D: Stiffness) -> None:
+    """Add ``delta_ij S_mn + F_ik D_mkln F_jl`` to the rows of a stiffness, both weighted."""
+    F = ((kin.F11, kin.F12), (kin.F21, kin.F22))
+    # F_ik D_mk.. for i, m, by the strains 11, 22 and 2 * 12
+    left = [
+        (
+            (x * D.D11 + y * D.D13, x * D.D12 + y * D.D23, x * D.D13 + y * D.D33),
+            (y * D.D12 + x * D.D13, y * D.D22 + x * D.D23, y * D.D23 + x * D.D33),
+        )
+        for x, y in F
+    ]
+    stress = ((S.xx, S.xy), (S.xy, S.yy))
+    for row, i, j in _ROWS:
+        x, y = F[j]
+        for m, n in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            along = left[i][m]
+            value = along[0] * x + along[2] * y if n == 0 else along[1] * y + along[2] * x
+            A[:, row, :, 2 * m + n] += value + stress[m][n] if i == j else value
 
 
 def tangent_entries(dofs: IntArray) -> tuple[IntArray, IntArray]:

@@ -28,6 +28,8 @@ class MechanicalState:
         Status of the contact candidates.
     self_shear : (mb,) float array or None
         Tangential forces of self-contact by boundary node [N/mm]; None where there is none.
+    rubber : (k, ne, 4) float array or None
+        State variables of the rubber at the Gauss points; None of rubber without a memory.
     """
 
     u: FloatArray
@@ -35,3 +37,4 @@ class MechanicalState:
     p: FloatArray
     status: ContactStatus
     self_shear: FloatArray | None = None
+    rubber: FloatArray | None = None

@@ -19,12 +19,13 @@ from scipy.sparse import coo_matrix, csc_matrix
 
 from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
 from contact.self_contact import Boundary, PairForces, Pairs, pair_forces, pair_tangents
-from fem.mechanics.elements import ElementForces, Q1P0Elements, Viscosity, tangent_entries
+from fem.mechanics.elements import ElementForces, Past, Q1P0Elements, Viscosity, tangent_entries
 from fem.mechanics.state import MechanicalState
 from fem.mesh.block import BlockMesh
 from fem.solvers.direct import LinearSolver, SuperLUSolver
 from fem.solvers.ordering import nested_dissection
 from fem.solvers.sparse_pattern import SparsePattern, summed
+from materials.material import MaterialStep, StepEnd
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -51,6 +52,8 @@ class StepLoad:
         Stress per strain increment of the step, by element [N/mm^2]; None without damping.
     pairs : Pairs or None
         Nodes and segments of the boundary that may meet; None without self-contact.
+    T_C : (n,) float array or None
+        Temperature of the nodes in the last accepted step, for rubber with a memory [C].
     """
 
     dt: float
@@ -59,6 +62,7 @@ class StepLoad:
     mu: FloatArray
     damping: FloatArray | None = None
     pairs: Pairs | None = None
+    T_C: FloatArray | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,8 +195,20 @@ class BlockMechanics:
         status = replace(status, kind=np.where(on_road, STICK, status.kind))
         zeros = np.zeros((n, 2))
         return MechanicalState(
-            u=zeros, velocity=zeros, p=np.zeros(len(self.mesh.cells)), status=status
-        )
+            u=zeros, velocity=zeros, p=np.zeros(len(self.mesh.cells)), status=status,
+            rubber=self.elements.virgin,
+        )  # fmt: skip
+
+    def material(
+        self, state: MechanicalState, T_C: FloatArray | None, dt: float = 0.0
+    ) -> MaterialStep:
+        """The rubber in a step of length `dt` [s] from an accepted state.
+
+        `T_C` (n,) are the temperatures of that state [C].
+        """
+        if state.rubber is not None and T_C is not None:
+            T_C = T_C[self.mesh.cells].mean(axis=1)[:, None]
+        return self.elements.model.step(state.rubber, dt, T_C)
 
     def step(self, state: MechanicalState, load: StepLoad) -> StepProblem:
         """The nonlinear problem of one step from an accepted state."""
@@ -241,10 +257,10 @@ class StepProblem:
 
     def __init__(self, system: BlockMechanics, state: MechanicalState, load: StepLoad) -> None:
         self.system, self.state, self.load = system, state, load
-        self.viscosity: Viscosity | None = None
-        if load.damping is not None:
-            strain_n = system.elements.kinematics(state.u).green_lagrange
-            self.viscosity = Viscosity(rate=load.damping, strain_n=strain_n)
+        self.past = Past(
+            viscosity=_viscosity(system, state, load),
+            material=system.material(state, load.T_C, load.dt),
+        )
         self.frame = np.array([load.sweep / load.dt, 0.0])
         self._latest: tuple[FloatArray, FloatArray, ElementForces] | None = None
 
@@ -288,6 +304,20 @@ class StepProblem:
         nodal[:, 1] += load.force * system._top_load
         return np.asarray(nodal)
 
+    def rubber_end(self, evaluation: StepEvaluation) -> StepEnd:
+        """What the rubber is left with if the step ends at an evaluated iterate."""
+        assert evaluation.elements is not None
+        return self.system.elements.material(self.past).end(evaluation.elements.kinematics)
+
+    def end(
+        self, x: Iterate, rubber: StepEnd, self_shear: FloatArray | None = None
+    ) -> MechanicalState:
+        """State at the end of the step, for a converged iterate."""
+        return MechanicalState(
+            u=x.u, velocity=self.velocity(x.u), p=x.p, status=x.status, self_shear=self_shear,
+            rubber=rubber.state,
+        )  # fmt: skip
+
     def _evaluate(self, x: Iterate, first: bool) -> StepEvaluation:
         system = self.system
         elements = self._element_forces(x)
@@ -315,7 +345,7 @@ class StepProblem:
         kin = elements.kinematics(x.u)
         if not elements.admissible(kin):
             return None
-        forces = elements.forces(x.p, kin, self.viscosity)
+        forces = elements.forces(x.p, kin, self.past)
         self._latest = x.u, x.p, forces
         return forces
 
@@ -404,7 +434,7 @@ class StepProblem:
         """Tangents of the nodal forces: matrix data of the block, and of the pairs (np, 6, 6)."""
         system, elements, pairs = self.system, evaluation.elements, self.load.pairs
         assert elements is not None
-        data = system.pattern.sum(system.elements.tangent(elements, self.viscosity))
+        data = system.pattern.sum(system.elements.tangent(elements))
         inertia = np.repeat(system.mass / self.load.dt**2, 2)
         equations = system.equation.ravel()
         data[system._diagonal] += np.bincount(
@@ -475,6 +505,14 @@ class StepProblem:
             status=direction.status,
             reactions=reactions,
         )
+
+
+def _viscosity(system: BlockMechanics, state: MechanicalState, load: StepLoad) -> Viscosity | None:
+    """Kelvin-Voigt term of a damped step."""
+    if load.damping is None:
+        return None
+    strain_n = system.elements.kinematics(state.u).green_lagrange
+    return Viscosity(rate=load.damping, strain_n=strain_n)
 
 
 def inadmissible(status: ContactStatus) -> StepEvaluation:

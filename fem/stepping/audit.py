@@ -26,6 +26,8 @@ class EnergyAudit:
     ----------
     work_in, friction, viscous : float
         Work of the platen, friction (on the road and on itself), Kelvin-Voigt dissipation.
+    rubber, damage : float
+        What the rubber's own viscosity dissipated, and what its damage consumed.
     strain_energy, kinetic : float
         Stored now.
     snaps : float
@@ -40,6 +42,8 @@ class EnergyAudit:
     friction: float = 0.0
     viscous: float = 0.0
     snaps: float = 0.0
+    rubber: float = 0.0
+    damage: float = 0.0
     strain_energy: float = 0.0
     kinetic: float = 0.0
     created: float = 0.0
@@ -55,7 +59,8 @@ class EnergyAudit:
         Relative to the energy turned over, so that it means something whatever its sign: friction
         that drives the block instead of braking it balances, but creates all of the energy.
         """
-        found = (self.strain_energy, self.friction, self.viscous, self.kinetic)
+        stored, dissipated = self.strain_energy, self.viscous + self.rubber
+        found = (stored, self.friction, dissipated, self.damage, self.kinetic)
         return balance_error(self.work_in, *found, created=self.created)
 
     @property
@@ -79,7 +84,8 @@ def audited(
 ) -> EnergyAudit:
     """Audit after one more accepted step; one that `snaps` had no solution with less damping."""
     before, after = step.before, step.after
-    assert step.evaluation.elements is not None
+    forces, elements = step.evaluation.elements, mechanics.elements
+    assert forces is not None
     force_x = float(step.evaluation.nodal[mechanics.mesh.top, 0].sum())
     lowered = platen_displacement(mechanics.mesh, after.mechanics.u) - platen_displacement(
         mechanics.mesh, before.mechanics.u
@@ -95,7 +101,9 @@ def audited(
         friction=audit.friction + friction,
         viscous=audit.viscous + viscous,
         snaps=audit.snaps + viscous * snaps,
-        strain_energy=mechanics.elements.strain_energy(step.evaluation.elements.kinematics),
+        rubber=audit.rubber + elements.integral(step.rubber.viscous),
+        damage=audit.damage + elements.integral(step.rubber.damage),
+        strain_energy=elements.strain_energy(forces.kinematics, step.rubber.stored),
         kinetic=kinetic,
         created=audit.created + max(-friction, 0.0) + max(-viscous, 0.0),
         capped=audit.capped + float(np.sum(dissipated[step.capped])),
@@ -107,7 +115,7 @@ def audited(
 
 def viscous_work(step: AcceptedStep, mechanics: BlockMechanics) -> float:
     """Kelvin-Voigt dissipation of a step, S:(E - E_n) [mJ/mm]."""
-    viscosity, elements = step.problem.viscosity, step.evaluation.elements
+    viscosity, elements = step.problem.past.viscosity, step.evaluation.elements
     if viscosity is None or elements is None:
         return 0.0
     S11, S22, S12 = viscosity.stress(elements.kinematics)

@@ -33,6 +33,7 @@ from fem.mechanics.regularisation import SnapDamping
 from fem.mechanics.state import MechanicalState
 from fem.mechanics.step import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
 from fem.stepping.programme import Target
+from materials.material import StepEnd
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -135,6 +136,8 @@ class AcceptedStep:
     lag_error : float
         Relative change of the friction force with the coefficient at the pressures, slip
         velocities and temperatures of the end of the step [-].
+    rubber : StepEnd
+        What the rubber is left with.
     power : (m,) float array
         Frictional power of the candidates, mean over the step [mJ/s].
     kappa : (m,) float array
@@ -155,6 +158,7 @@ class AcceptedStep:
     iterations: int
     hardest_pass: int
     lag_error: float
+    rubber: StepEnd
     power: FloatArray
     kappa: FloatArray
     capped: NDArray[np.bool_]
@@ -229,6 +233,8 @@ class CoupledModel:
         Merit that suffices in a pass whose friction coefficient is still to be corrected.
     self_contact : SelfContact, optional
         Contact of the block with itself; none without it.
+    rubber_heats : bool
+        Whether what the rubber's viscosity dissipates heats the block.
     """
 
     def __init__(
@@ -243,7 +249,9 @@ class CoupledModel:
         options: newton.NewtonOptions,
         first_merit: float = 1.0,
         self_contact: SelfContact | None = None,
+        rubber_heats: bool = True,
     ) -> None:
+        self.rubber_heats = rubber_heats
         self.self_contact, self.damping = self_contact, damping
         self.mechanics, self.heat, self.laws = mechanics, heat, laws
         self.mean_pressure, self.friction_passes = mean_pressure, friction_passes
@@ -290,6 +298,7 @@ class CoupledModel:
             mu=mu,
             damping=damping,
             pairs=pairs,
+            T_C=state.heat.T,
         )
         problem = self.mechanics.step(state.mechanics, load)
         start = problem.start() if guess is None else guess.solution
@@ -399,14 +408,13 @@ class CoupledModel:
         pressure = self.laws.partition.governing(pressure, mean)
         kappa, uncapped = self.laws.partition(pressure), self.laws.partition.uncapped(pressure)
         nodes, work = self._self_friction(problem, result.evaluation)
+        rubber = problem.rubber_end(result.evaluation)
         heat = self._heat(
             state, target, x.u, contact, kappa * power,
-            extra_nodes=nodes, extra_power=work / target.dt,
+            surface=(nodes, work / target.dt), bulk=self._bulk_power(rubber, target.dt),
         )  # fmt: skip
-        mechanics = MechanicalState(
-            u=x.u, velocity=problem.velocity(x.u), p=x.p, status=x.status,
-            self_shear=self._self_shear(problem, result.evaluation),
-        )  # fmt: skip
+        self_shear = self._self_shear(problem, result.evaluation)
+        mechanics = problem.end(x, rubber, self_shear)
         after = CoupledState(
             time=state.time + target.dt, position=state.position + target.sweep,
             mechanics=mechanics, heat=heat, contact=contact, mu=self._coefficient(contact, heat),
@@ -415,7 +423,7 @@ class CoupledModel:
             before=state, after=after, target=target, evaluation=result.evaluation,
             problem=problem, iterations=iterations, hardest_pass=hardest,
             lag_error=lag_error(contact, after.mu),
-            power=power, kappa=kappa,
+            rubber=rubber, power=power, kappa=kappa,
             capped=uncapped > self.laws.partition.cap, self_friction=float(work.sum()),
             penetration=penetration,
         )  # fmt: skip
@@ -428,6 +436,12 @@ class CoupledModel:
         if pairs is None or forces is None:
             return np.empty(0, dtype=np.int64), np.empty(0)
         return heat_sources(pairs, forces, dissipation(pairs, forces))
+
+    def _bulk_power(self, rubber: StepEnd, dt: float) -> FloatArray | None:
+        """Heat that the rubber's own viscosity makes in the block, by node [mJ/s]."""
+        if rubber.viscous is None or not self.rubber_heats:
+            return None
+        return self.mechanics.elements.nodal_integral(rubber.viscous) / dt
 
     def _penetration(self, problem: StepProblem, u: FloatArray) -> float:
         """Largest penetration relative to the local element size, of pairs and of others [-]."""
@@ -448,7 +462,7 @@ class CoupledModel:
 
     def _heat(
         self, state: CoupledState, target: Target, u: FloatArray, contact: RoadContact,
-        power: FloatArray, *, extra_nodes: IntArray, extra_power: FloatArray,
+        power: FloatArray, *, surface: tuple[IntArray, FloatArray], bulk: FloatArray | None,
     ) -> HeatState:  # fmt: skip
         active = contact.status.active
         opened = ~active & (power != 0.0)
@@ -457,8 +471,9 @@ class CoupledModel:
             dt=target.dt, sweep=target.sweep, displacement=u,
             contact_nodes=self.mechanics.candidates[active], power=power[active],
             conductance=(W_PER_M2K * h * contact.length)[active],
-            extra_nodes=np.concatenate([self.mechanics.candidates[opened], extra_nodes]),
-            extra_power=np.concatenate([power[opened], extra_power]),
+            surface_nodes=np.concatenate([self.mechanics.candidates[opened], surface[0]]),
+            surface_power=np.concatenate([power[opened], surface[1]]),
+            bulk_power=bulk,
         )  # fmt: skip
         return self.heat.advance(state.heat, load, state.position)
 

@@ -9,6 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fem.case.case import Case
+from fem.mechanics.elements import Past
 from fem.mechanics.step import platen_displacement
 from fem.mesh.block import BlockMesh
 from fem.results.bottom_history import BottomHistory
@@ -107,6 +108,7 @@ class Recorder:
         """Append the fields of an accepted state."""
         elements, mechanics = self.model.mechanics.elements, state.mechanics
         kinematics = elements.kinematics(mechanics.u)
+        past = Past(material=self.model.mechanics.material(mechanics, state.heat.T))
         road = self.model.heat.road_field(state.heat, state.position)
         self.snapshots.append(
             Snapshot(
@@ -114,7 +116,7 @@ class Recorder:
                 sliding_distance_mm=distance,
                 displacement=mechanics.u,
                 temperature=state.heat.T,
-                cauchy_stress=elements.cauchy(kinematics),
+                cauchy_stress=elements.cauchy(kinematics, past),
                 stretch=elements.largest_stretch(kinematics),
                 pressure=mechanics.p,
                 road_points=road.points,
@@ -181,10 +183,13 @@ def energy_columns(audit: EnergyAudit, state: CoupledState) -> dict[str, float]:
         "work_in_mJ_per_mm": audit.work_in,
         "strain_energy_mJ_per_mm": audit.strain_energy,
         "friction_dissipation_mJ_per_mm": audit.friction,
-        "viscous_dissipation_mJ_per_mm": audit.viscous,
+        "viscous_dissipation_mJ_per_mm": audit.viscous + audit.rubber,
+        "rubber_dissipation_mJ_per_mm": audit.rubber,
+        "damage_energy_mJ_per_mm": audit.damage,
         "snap_dissipation_mJ_per_mm": audit.snaps,
         "kinetic_energy_mJ_per_mm": audit.kinetic,
-        "frictional_heat_mJ_per_mm": heat.generated,
+        "frictional_heat_mJ_per_mm": heat.generated - heat.in_bulk,
+        "bulk_heat_mJ_per_mm": heat.in_bulk,
         "heat_in_rubber_mJ_per_mm": heat.in_block,
         "heat_in_road_mJ_per_mm": heat.in_road + heat.left,
         "radiated_mJ_per_mm": heat.radiated,

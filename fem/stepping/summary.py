@@ -64,9 +64,11 @@ def steady_shares(history: pd.DataFrame) -> dict[str, float]:
     """
     work = "work_in_mJ_per_mm"
     viscous, snaps = "viscous_dissipation_mJ_per_mm", "snap_dissipation_mJ_per_mm"
+    rubber = "rubber_dissipation_mJ_per_mm"
     return {
         "regularisation_share": steady_share(history, viscous, work)
-        - steady_share(history, snaps, work),
+        - steady_share(history, snaps, work)
+        - steady_share(history, rubber, work),
         "storage_share": steady_share(history, "strain_energy_mJ_per_mm", work),
     }
 

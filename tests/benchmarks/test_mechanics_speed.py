@@ -94,6 +94,24 @@ def test_assembly_costs_less_than_one_factorisation(benchmark, step):
     assert assembling < factorising
 
 
+def test_a_law_without_memory_pays_nothing_for_the_seam(benchmark, system, step):
+    """Response and end of a step against the bare derivatives, as a share of the assembly."""
+    elements, model = system.elements, system.elements.model
+    kin = elements.kinematics(step[1].u)
+
+    def bare():
+        return model.derivatives(kin.I1, kin.J)
+
+    def through():
+        return model.step(elements.virgin, 1.0, None).respond(kin)
+
+    direct, asked, whole = benchmark.pedantic(
+        medians, (bare, through, lambda: assembly(*step)), {"rounds": 5 * ROUNDS}, rounds=1
+    )
+    benchmark.extra_info["seam_over_assembly"] = (asked - direct) / whole
+    assert asked - direct < 0.05 * whole
+
+
 def short_slide(distance):
     loading = {
         "mean_pressure_N_per_mm2": 0.25,

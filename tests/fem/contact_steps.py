@@ -7,7 +7,6 @@ from scipy.optimize import brentq
 
 from fem import newton
 from fem.mechanics.elements import Q1P0Elements
-from fem.mechanics.state import MechanicalState
 from fem.mechanics.step import BlockMechanics, StepLoad
 from fem.stepping.step_control import StepController, StepPlan, landed
 from materials import compound
@@ -43,9 +42,7 @@ def solved(system, state, load):
     problem = system.step(state, load)
     result = newton.solve(problem, problem.start(), OPTIONS)
     assert result.converged, (result.failure, result.detail)
-    x = result.x
-    after = MechanicalState(u=x.u, velocity=problem.velocity(x.u), p=x.p, status=x.status)
-    return problem, result, after
+    return problem, result, problem.end(result.x, problem.rubber_end(result.evaluation))
 
 
 def pressed(system, force, mu=0.0, steps=2, dt=1.0):
@@ -68,10 +65,7 @@ def slid(system, state, *, distance, speed, force, mu, step=0.05):
         result = newton.solve(problem, problem.start(), OPTIONS)
         if result.converged:
             at += length
-            state = MechanicalState(
-                u=result.x.u, velocity=problem.velocity(result.x.u), p=result.x.p,
-                status=result.x.status,
-            )  # fmt: skip
+            state = problem.end(result.x, problem.rubber_end(result.evaluation))
             plan = control.accepted(plan, length, result.iterations)
             continue
         plan = control.rejected(plan, length)

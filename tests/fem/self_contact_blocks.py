@@ -52,9 +52,7 @@ def self_contact_step(system, state, load, *, reach, mu=1.0, passes=8):
     forces = result.evaluation.pairs
     shear = np.zeros(boundary.nodes.size)
     np.add.at(shear, pairs.place, forces.shear)
-    after = MechanicalState(
-        u=u, velocity=problem.velocity(u), p=result.x.p, status=result.x.status, self_shear=shear
-    )
+    after = problem.end(result.x, problem.rubber_end(result.evaluation), shear)
     return SelfStep(
         result=result, state=after, pairs=pairs,
         penetration=pair_penetration(pairs, points + u, boundary),

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
-from fem.mechanics.elements import Q1P0Elements, tangent_entries
+from fem.mechanics.elements import NO_PAST, Q1P0Elements, tangent_entries
 from fem.mesh.block import block_mesh
 from fem.mesh.grading import Grading
 
@@ -55,10 +55,10 @@ def consistent_pressure(elements, u):
     return elements.K_bulk * (elements.kinematics(u).Jbar - 1.0)
 
 
-def global_forces(elements, u, viscosity=None):
+def global_forces(elements, u, past=NO_PAST):
     """Internal forces of all nodes (n, 2) [N/mm]."""
     kin = elements.kinematics(u)
-    forces = elements.forces(consistent_pressure(elements, u), kin, viscosity)
+    forces = elements.forces(consistent_pressure(elements, u), kin, past)
     total = np.zeros(2 * len(u))
     np.add.at(total, elements.dofs.ravel(), forces.residual.ravel())
     return total.reshape(-1, 2)
@@ -71,11 +71,11 @@ def assembled(elements, K_e):
     return coo_matrix((K_e.ravel(), (rows, columns)), shape=(size, size)).tocsc()
 
 
-def global_tangent(elements, u, viscosity=None):
+def global_tangent(elements, u, past=NO_PAST):
     """Tangent of the internal forces with consistent element pressure, dense."""
     kin = elements.kinematics(u)
-    forces = elements.forces(consistent_pressure(elements, u), kin, viscosity)
-    return assembled(elements, elements.tangent(forces, viscosity)).toarray()
+    forces = elements.forces(consistent_pressure(elements, u), kin, past)
+    return assembled(elements, elements.tangent(forces)).toarray()
 
 
 def solve_dirichlet(elements, u, free, load=0.0, iterations=30, tolerance=1e-10):

@@ -44,8 +44,8 @@ def sliding_load(model, amount=1.0, dt=0.005, sweep=1.3, power=4.0):
         contact_nodes=contact,
         power=np.linspace(0.5, 1.0, len(contact)) * power,
         conductance=np.linspace(1.0, 1.5, len(contact)) * 1e-3,
-        extra_nodes=leading_face(mesh)[2:5],
-        extra_power=np.array([0.3, 0.2, 0.1]),
+        surface_nodes=leading_face(mesh)[2:5],
+        surface_power=np.array([0.3, 0.2, 0.1]),
     )
 
 
@@ -285,7 +285,7 @@ def test_cost_does_not_grow_with_the_distance():
     [
         ({"dt": 0.0}, "dt = 0.0 s, expected above 0"),
         ({"power": np.zeros(3)}, "21 contact nodes with 3 powers"),
-        ({"extra_power": np.zeros(1)}, "3 extra nodes with 1 powers"),
+        ({"surface_power": np.zeros(1)}, "3 surface nodes with 1 powers"),
     ],
 )
 def test_loads_that_do_not_fit_are_refused(change, message):

@@ -27,8 +27,9 @@ def test_what_is_stored_and_dissipated_in_the_second_half_is_told_apart():
         "strain_energy_mJ_per_mm": [0.0, 6.0, 7.0],
         "viscous_dissipation_mJ_per_mm": [0.0, 3.0, 3.5],
         "snap_dissipation_mJ_per_mm": [0.0, 0.5, 1.5],
+        "rubber_dissipation_mJ_per_mm": [0.0, 0.1, 0.3],
     })  # fmt: skip
     shares = steady_shares(table)
     # The span starts with the last row before the middle.
     assert shares["storage_share"] == pytest.approx(7.0 / 90.0)
-    assert shares["regularisation_share"] == pytest.approx((3.5 - 1.5) / 90.0)
+    assert shares["regularisation_share"] == pytest.approx((3.5 - 1.5 - 0.3) / 90.0)

@@ -1,0 +1,144 @@
+"""What the finite elements ask of a material in plane strain, and what a material remembers.
+
+Hyperelastic laws give a response of the invariants alone (`materials.hyperelastic_base`). What
+depends on the past adds second Piola-Kirchhoff stresses and their tangent, and returns the new
+state of its memory. Asking changes nothing: the caller keeps the state of the steps it accepts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+class EnergyDerivatives(NamedTuple):
+    """Isochoric energy per reference volume and its partial derivatives [N/mm^2].
+
+    ``W_1`` is dW/dI1 at constant J, ``W_J`` is dW/dJ at constant I1, and so on.
+    """
+
+    W: Array
+    W_1: Array
+    W_J: Array
+    W_11: Array
+    W_1J: Array
+    W_JJ: Array
+
+
+class InPlane(NamedTuple):
+    """Components 11, 22 and 12 of a symmetric tensor in the plane."""
+
+    xx: Array
+    yy: Array
+    xy: Array
+
+
+class Stiffness(NamedTuple):
+    """Symmetric tangent of stresses S11, S22, S12 by the strains E11, E22, 2 E12 [N/mm^2]."""
+
+    D11: Array
+    D22: Array
+    D33: Array
+    D12: Array
+    D13: Array
+    D23: Array
+
+
+class Deformation(Protocol):
+    """Deformation at points, arrays of one shape (..., q)."""
+
+    @property
+    def I1(self) -> Array:
+        """First invariant F:F + 1 [-]."""
+
+    @property
+    def J(self) -> Array:
+        """Determinant of F [-]."""
+
+    @property
+    def C(self) -> InPlane:
+        """Right Cauchy-Green tensor F^T F [-]."""
+
+
+class Response(NamedTuple):
+    """Stress of a material: what depends on the invariants, and what does not.
+
+    Attributes
+    ----------
+    energy : EnergyDerivatives
+        Part of the stress and of its tangent that depends on the invariants.
+    S : InPlane or None
+        Second Piola-Kirchhoff stresses besides [N/mm^2].
+    """
+
+    energy: EnergyDerivatives
+    S: InPlane | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepEnd:
+    """What a material is left with at the end of a step, arrays of the points.
+
+    Attributes
+    ----------
+    stored : float array
+        Energy per reference volume that it can give back [N/mm^2].
+    state : (k, ...) float array or None
+        Its state variables; None where it has none.
+    viscous, damage : float array or None
+        Energy per reference volume dissipated by its viscosity and consumed by its damage in the
+        step [N/mm^2].
+    softening : float array or None
+        Factor of its elastic stress [-].
+    """
+
+    stored: Array
+    state: Array | None = None
+    viscous: Array | None = None
+    damage: Array | None = None
+    softening: Array | None = None
+
+
+class MaterialStep(Protocol):
+    """A material in a time step from an accepted state; asking changes nothing."""
+
+    def respond(self, deformation: Deformation) -> Response:
+        """Stress at a deformation."""
+
+    def stiffness(self, deformation: Deformation, cells: slice) -> Stiffness | None:
+        """Tangent of the stresses ``S`` at the deformation of some cells (the first axis)."""
+
+    def end(self, deformation: Deformation) -> StepEnd:
+        """What the step leaves behind if it ends at a deformation."""
+
+
+class Material(Protocol):
+    """A material as the elements see it."""
+
+    @property
+    def initial_shear_modulus(self) -> float:
+        """Shear modulus G of the undeformed state in slow tests [N/mm^2]."""
+
+    def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
+        """Whether the energy exists at the state."""
+
+    def virgin(self, points: tuple[int, ...]) -> Array | None:
+        """State variables (k, *points) before the first step; None for a material without."""
+
+    def step(self, state: Array | None, dt: float, T_C: Array | None) -> MaterialStep:
+        """A time step from an accepted state.
+
+        Parameters
+        ----------
+        state : (k, *points) float array or None
+            State variables of the last accepted step.
+        dt : float
+            Length of the step [s]; 0 asks for the response of the state itself.
+        T_C : float array or None
+            Temperature of the last accepted step, broadcast to the points [C].
+        """
