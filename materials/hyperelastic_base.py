@@ -94,7 +94,9 @@ class Hyperelastic(ABC):
         """Response of the invariants alone."""
         return Response(self.derivatives(deformation.I1, deformation.J))
 
-    def stiffness(self, deformation: Deformation, cells: slice) -> Stiffness | None:
+    def stiffness(
+        self, deformation: Deformation, response: Response, cells: slice
+    ) -> Stiffness | None:
         """No stresses besides those of the invariants."""
         return None
 

@@ -8,7 +8,7 @@ state of its memory. Asking changes nothing: the caller keeps the state of the s
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -74,10 +74,13 @@ class Response(NamedTuple):
         Part of the stress and of its tangent that depends on the invariants.
     S : InPlane or None
         Second Piola-Kirchhoff stresses besides [N/mm^2].
+    inner : Any
+        What the material itself needs for the tangent of S.
     """
 
     energy: EnergyDerivatives
     S: InPlane | None = None
+    inner: Any = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,8 +113,13 @@ class MaterialStep(Protocol):
     def respond(self, deformation: Deformation) -> Response:
         """Stress at a deformation."""
 
-    def stiffness(self, deformation: Deformation, cells: slice) -> Stiffness | None:
-        """Tangent of the stresses ``S`` at the deformation of some cells (the first axis)."""
+    def stiffness(
+        self, deformation: Deformation, response: Response, cells: slice
+    ) -> Stiffness | None:
+        """Tangent of the stresses ``S`` of a response in some cells (the first axis).
+
+        The deformation is that of these cells, the response that of all.
+        """
 
     def end(self, deformation: Deformation) -> StepEnd:
         """What the step leaves behind if it ends at a deformation."""

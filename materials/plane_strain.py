@@ -1,9 +1,12 @@
 """Stress and its tangent from an isochoric energy in plane strain (F33 = 1)."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from materials.hyperelastic import EnergyDerivatives, Hyperelastic
+from materials.hyperelastic import Hyperelastic
+from materials.material import EnergyDerivatives, InPlane
 
 Array = NDArray[np.float64]
 
@@ -24,11 +27,19 @@ def cofactor(F: ArrayLike) -> Array:
     return C
 
 
-def right_cauchy_green(F: ArrayLike) -> Array:
-    """Components 11, 22, 12 of ``C = F^T F`` [-], (3, ...), of F (..., 2, 2)."""
+class PlaneDeformation(NamedTuple):
+    """Deformation as a material sees it (`materials.material.Deformation`)."""
+
+    C: InPlane
+    I1: Array
+    J: Array
+
+
+def deformation_of(F: ArrayLike) -> PlaneDeformation:
+    """``C = F^T F``, I1 and J of deformation gradients (..., 2, 2)."""
     F = np.asarray(F, dtype=float)
     C = np.einsum("...ki,...kj->...ij", F, F)
-    return np.stack([C[..., 0, 0], C[..., 1, 1], C[..., 0, 1]])
+    return PlaneDeformation(InPlane(C[..., 0, 0], C[..., 1, 1], C[..., 0, 1]), *invariants(F))
 
 
 def first_piola_kirchhoff(model: Hyperelastic, F: ArrayLike) -> Array:

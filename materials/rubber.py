@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from materials.homogeneous import HomogeneousTest, homogeneous_test
 from materials.hyperelastic_base import EnergyDerivatives, Hyperelastic, Mode
+from materials.material import Deformation, InPlane, Response, StepEnd, Stiffness
 from materials.maxwell import (
     BranchDerivatives,
     PlaneDrive,
@@ -27,24 +27,11 @@ from materials.maxwell import (
     plane_stiffness,
     plane_stress,
 )
-from materials.plane_strain import invariants, right_cauchy_green, stiffness_of, stress_of
+from materials.plane_strain import deformation_of, stiffness_of, stress_of
 from materials.prony import Prony
 from materials.softening import OgdenRoxburgh
 
 Array = NDArray[np.float64]
-
-
-class StepEnergy(NamedTuple):
-    """Energies per reference volume at the end of a step [N/mm^2].
-
-    ``stored`` can be given back; ``viscous`` was dissipated by the branches and ``damage`` consumed
-    by softening in the step; ``eta`` is the factor of softening [-].
-    """
-
-    stored: Array
-    viscous: Array
-    damage: Array
-    eta: Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,7 +135,7 @@ class Rubber:
             np.reshape(values, (-1,) + (1,) * len(points)), (len(values), *points)
         ).copy()
 
-    def step(self, state: Array, dt: float, T_C: ArrayLike | None = None) -> PlaneStep:
+    def step(self, state: Array | None, dt: float, T_C: ArrayLike | None = None) -> PlaneStep:
         """A time step from the state (k, *points) of the last accepted one.
 
         Parameters
@@ -160,14 +147,12 @@ class Rubber:
         T_C : array_like or None
             Temperature of the last accepted step [deg C], broadcast to the points.
         """
+        assert state is not None
         return PlaneStep(self, state, dt, T_C)
 
 
 class PlaneStep:
-    """Response of a `Rubber` over one time step in plane strain; evaluating changes nothing.
-
-    Deformations come as C (components 11, 22, 12) and J at the points, ``J^2 = C11 C22 - C12^2``.
-    """
+    """A `Rubber` over one time step (see `materials.material`); evaluating changes nothing."""
 
     def __init__(self, rubber: Rubber, state: Array, dt: float, T_C: ArrayLike | None) -> None:
         self.rubber, self.state = rubber, state
@@ -188,67 +173,63 @@ class PlaneStep:
         """What the branches bring into the step."""
         return plane_drive(self._X_n, self._Ci_n, self._h)
 
-    def response(
-        self, C: tuple[Array, ...], I1: Array, J: Array
-    ) -> tuple[EnergyDerivatives, BranchDerivatives | None]:
-        """Derivatives of the energy by I1 and J and of the branches by q and J [N/mm^2].
-
-        What the branches give by J alone is in the first already.
-        """
-        energy, damage = self._unsoftened(I1, J), self.rubber.damage
+    def respond(self, deformation: Deformation) -> Response:
+        """Stress at a deformation; what the branches give by J alone is in the energy."""
+        energy, damage = self._unsoftened(deformation), self.rubber.damage
         if damage is not None:
             energy = damage.softened(energy, self._W_max)
         if self.rubber.viscous is None:
-            return energy, None
-        d = plane_derivatives(self.drive, self._G, C, J)
+            return Response(energy)
+        d = plane_derivatives(self.drive, self._G, deformation.C, deformation.J)
         W_J, W_JJ = energy.W_J + np.sum(d.J, axis=0), energy.W_JJ + np.sum(d.JJ, axis=0)
-        return energy._replace(W_J=W_J, W_JJ=W_JJ), d
+        S = InPlane(*plane_stress(self.drive, d))
+        return Response(energy._replace(W_J=W_J, W_JJ=W_JJ), S, d)
 
-    def first_piola_kirchhoff(self, F: ArrayLike) -> Array:
-        """Isochoric stress P [N/mm^2] at deformation gradients (..., 2, 2)."""
-        C, (I1, J) = tuple(right_cauchy_green(F)), invariants(F)
-        energy, d = self.response(C, I1, J)
-        return stress_of(energy, F, None if d is None else np.stack(plane_stress(self.drive, d)))
+    def stiffness(
+        self, deformation: Deformation, response: Response, cells: slice
+    ) -> Stiffness | None:
+        """Consistent tangent of the branches' stresses (see `MaterialStep`)."""
+        if response.inner is None:
+            return None
+        drive = PlaneDrive(*(part[:, cells] for part in self.drive))
+        d = BranchDerivatives(*(part[:, cells] for part in response.inner))
+        return Stiffness(*plane_stiffness(drive, d, deformation.C, deformation.J))
 
-    def dP_dF(self, F: ArrayLike) -> Array:
-        """Consistent tangent of `first_piola_kirchhoff` [N/mm^2], (..., 2, 2, 2, 2)."""
-        C, (I1, J) = tuple(right_cauchy_green(F)), invariants(F)
-        energy, d = self.response(C, I1, J)
-        if d is None:
-            return stiffness_of(energy, F)
-        S, D = plane_stress(self.drive, d), plane_stiffness(self.drive, d, C, J)
-        return stiffness_of(energy, F, np.stack(S), np.stack(D))
-
-    def energies(self, C: tuple[Array, ...], I1: Array, J: Array) -> StepEnergy:
-        """Energies at the end of the step, for the deformation there."""
-        stored = W = self._unsoftened(I1, J).W
-        viscous, consumed, eta = np.zeros_like(W), np.zeros_like(W), np.ones_like(W)
-        damage = self.rubber.damage
+    def end(self, deformation: Deformation) -> StepEnd:
+        """Energies and state variables of a step that ends at a deformation."""
+        stored = W = self._unsoftened(deformation).W
+        parts, damage = [], self.rubber.damage
+        consumed = softening = viscous = None
         if damage is not None:
             largest = np.maximum(W, self._W_max)
-            eta, stored = damage.factor(W, largest)[0], damage.recoverable(W, largest)
+            softening, stored = damage.factor(W, largest)[0], damage.recoverable(W, largest)
             consumed = damage.consumed(largest) - damage.consumed(self._W_max)
+            parts.append(largest[None])
         if self.rubber.viscous is not None:
-            X, Ci = self._end(C, J)
+            X = np.stack(deformation.C) * np.cbrt(deformation.J) ** -2
+            Ci = plane_internal(self.drive, X)
             stored = stored + np.sum(0.5 * self._G * (plane_elastic(X, Ci)[0] - 3.0), axis=0)
             lost = plane_dissipated(self._X_n, self._Ci_n, X, Ci, self._h)
             viscous = np.sum(0.5 * self._G * lost, axis=0)
-        return StepEnergy(stored, viscous, consumed, eta)
-
-    def end(self, C: tuple[Array, ...], I1: Array, J: Array) -> Array:
-        """State variables at the end of the step, for the deformation there."""
-        parts = []
-        if self.rubber.damage is not None:
-            parts.append(np.maximum(self._unsoftened(I1, J).W, self._W_max)[None])
-        if self.rubber.viscous is not None:
-            X, Ci = self._end(C, J)
             parts += [X, np.moveaxis(Ci, 0, 1).reshape(-1, *X.shape[1:])]
-        return np.concatenate(parts) if parts else self.state
+        state = np.concatenate(parts) if parts else self.state
+        return StepEnd(
+            stored=stored, state=state, viscous=viscous, damage=consumed, softening=softening
+        )
 
-    def _unsoftened(self, I1: Array, J: Array) -> EnergyDerivatives:
-        energy, factor = self.rubber.elastic.derivatives(I1, J), self.rubber._elastic_factor
+    def first_piola_kirchhoff(self, F: ArrayLike) -> Array:
+        """Isochoric stress P [N/mm^2] at deformation gradients (..., 2, 2)."""
+        response = self.respond(deformation_of(F))
+        return stress_of(response.energy, F, response.S)
+
+    def dP_dF(self, F: ArrayLike) -> Array:
+        """Consistent tangent of `first_piola_kirchhoff` [N/mm^2], (..., 2, 2, 2, 2)."""
+        deformation = deformation_of(F)
+        response = self.respond(deformation)
+        D = self.stiffness(deformation, response, slice(None))
+        return stiffness_of(response.energy, F, response.S, D)
+
+    def _unsoftened(self, deformation: Deformation) -> EnergyDerivatives:
+        energy = self.rubber.elastic.derivatives(deformation.I1, deformation.J)
+        factor = self.rubber._elastic_factor
         return energy if factor == 1.0 else EnergyDerivatives(*(factor * W for W in energy))
-
-    def _end(self, C: tuple[Array, ...], J: Array) -> tuple[Array, Array]:
-        X = np.stack(C) * np.cbrt(J) ** -2
-        return X, plane_internal(self.drive, X)

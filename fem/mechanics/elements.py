@@ -33,6 +33,7 @@ from materials.material import (
     InPlane,
     Material,
     MaterialStep,
+    Response,
     Stiffness,
 )
 from materials.plane_strain import cauchy_stress
@@ -150,8 +151,8 @@ class ElementForces:
         Internal forces of each element, dofs (node, component) interleaved [N/mm].
     pressure_residual : (ne,) float array
         ``U'(Jbar) - p`` [N/mm^2].
-    energy : EnergyDerivatives
-        Of the material at the Gauss points [N/mm^2].
+    response : Response
+        Of the material at the Gauss points.
     S : InPlane or None
         Second Piola-Kirchhoff stresses besides those of the invariants [N/mm^2].
     past : Past
@@ -161,7 +162,7 @@ class ElementForces:
     residual: FloatArray
     pressure_residual: FloatArray
     kinematics: Kinematics
-    energy: EnergyDerivatives
+    response: Response
     S: InPlane | None
     pressure: FloatArray
     past: Past
@@ -244,11 +245,12 @@ class Q1P0Elements:
 
     def forces(self, p: FloatArray, kin: Kinematics, past: Past = NO_PAST) -> ElementForces:
         """Internal nodal forces at kinematics `kin` and element pressures `p` (ne,)."""
-        energy, S = self.material(past).respond(kin)
+        response = self.material(past).respond(kin)
+        S = response.S
         if past.viscosity is not None:
             viscous = past.viscosity.stress(kin)
             S = viscous if S is None else InPlane(*map(np.add, S, viscous))
-        P = _first_piola_kirchhoff(kin, energy, S, self.weights)
+        P = _first_piola_kirchhoff(kin, response.energy, S, self.weights)
         P_flat = P.transpose(0, 1, 3, 2).reshape(-1, 8, 2)
         residual = np.matmul(self._G_flat, P_flat).reshape(-1, 8)
         b = kin.area_gradient.reshape(-1, 8)
@@ -257,7 +259,7 @@ class Q1P0Elements:
             residual=residual + dU_dJ[:, None] * b,
             pressure_residual=dU_dJ - p,
             kinematics=kin,
-            energy=energy,
+            response=response,
             S=S,
             pressure=p,
             past=past,
@@ -276,11 +278,11 @@ class Q1P0Elements:
         for start in range(0, len(K), BATCH):
             cells = slice(start, start + BATCH)
             kin, w = forces.kinematics.part(cells), self.weights[cells]
-            energy = EnergyDerivatives(*(W[cells] for W in forces.energy))
+            energy = EnergyDerivatives(*(W[cells] for W in forces.response.energy))
             A = _weighted_stiffness(kin, energy, w, forces.pressure[cells])
             if forces.S is not None:
                 S = InPlane(*(w * component[cells] for component in forces.S))
-                D = self._stiffness(kin, forces.past, cells)
+                D = self._stiffness(kin, forces, cells)
                 _add_second_stress(A, kin, S, Stiffness(*(w * component for component in D)))
             A[:, 2] = A[:, 1]
             np.matmul(A.reshape(-1, 4, 16), self._GG[cells], out=K[cells].reshape(-1, 4, 16))
@@ -290,13 +292,15 @@ class Q1P0Elements:
             K[cells] += c[:, :, None, :, None] * b[:, None, :, None, :]
         return K
 
-    def _stiffness(self, kin: Kinematics, past: Past, cells: slice) -> Iterator[FloatArray]:
+    def _stiffness(
+        self, kin: Kinematics, forces: ElementForces, cells: slice
+    ) -> Iterator[FloatArray]:
         """Tangent of the stresses S of some of the elements, in the order of `Stiffness`."""
-        parts = []
+        parts, past = [], forces.past
         if past.viscosity is not None:
             rate = np.broadcast_to(past.viscosity.rate, (len(self.cells), 1))[cells]
             parts.append(Stiffness(rate, rate, 0.5 * rate, *3 * [np.zeros(1)]))
-        D = self.material(past).stiffness(kin, cells)
+        D = self.material(past).stiffness(kin, forces.response, cells)
         parts += [] if D is None else [D]
         return (sum(components) for components in zip(*parts, strict=True))
 
@@ -324,8 +328,8 @@ class Q1P0Elements:
 
     def cauchy(self, kin: Kinematics, past: Past = NO_PAST) -> FloatArray:
         """Volume-averaged Cauchy stresses xx, yy, zz, xy of the cells, (ne, 4) [N/mm^2]."""
-        energy, S = self.material(past).respond(kin)
-        P = _first_piola_kirchhoff(kin, energy, S, 1.0)
+        response = self.material(past).respond(kin)
+        P = _first_piola_kirchhoff(kin, response.energy, response.S, 1.0)
         sigma = cauchy_stress(P, kin.matrix, (self.K_bulk * (kin.Jbar - 1.0))[:, None])
         share = self.weights / self.volume[:, None]
         return np.asarray(np.einsum("eqc,eq->ec", sigma, share))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from materials import COMPOUNDS, NeoHooke, Ogden, OgdenRoxburgh, Prony, Rubber, VanDerWaals
+from materials.plane_strain import deformation_of
 
 SPECTRUM = Prony(g=[0.6, 0.4, 0.3, 0.2], tau_s=[1e-3, 0.02, 0.4, 9.0])
 SOFTENING = OgdenRoxburgh(r=1.8, m=0.15, beta=0.2)
@@ -28,13 +29,6 @@ RUBBERS = {
 }
 
 
-def measures(F):
-    """C (components 11, 22, 12), I1 and J of deformation gradients (..., 2, 2)."""
-    C = np.swapaxes(F, -1, -2) @ F
-    in_plane = (C[..., 0, 0], C[..., 1, 1], C[..., 0, 1])
-    return in_plane, in_plane[0] + in_plane[1] + 1.0, np.linalg.det(F)
-
-
 def random_deformations(rng, size, spread=0.3):
     F = np.eye(2) + spread * rng.uniform(-1, 1, (size, 2, 2))
     return (
@@ -46,5 +40,5 @@ def after(rubber, states, dt):
     """State of the rubber after steps of length dt through deformations (steps, points, 2, 2)."""
     state = rubber.virgin(states[0].shape[:1])
     for F in states:
-        state = rubber.step(state, dt).end(*measures(F))
+        state = rubber.step(state, dt).end(deformation_of(F)).state
     return state

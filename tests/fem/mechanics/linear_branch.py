@@ -53,7 +53,7 @@ class BranchStep:
         energy = self.material.elastic.derivatives(deformation.I1, deformation.J)
         return Response(energy, InPlane(*(2.0 * self.material.G_b * elastic)))
 
-    def stiffness(self, deformation, cells):
+    def stiffness(self, deformation, response, cells):
         modulus = 2.0 * self.material.G_b / (1.0 + self.ratio[cells])
         zero = np.zeros_like(modulus)
         return Stiffness(modulus, modulus, 0.5 * modulus, zero, zero, zero)
