@@ -37,7 +37,7 @@ def test_where_an_undamped_solution_exists_relaxation_ends_in_it(sliding):
     step, level = relaxed(model, damped, 4.0)
     forces = [s.after.contact.friction_force for s in (damped, elastic, step)]
     assert level == 0.0
-    assert step.problem.viscosity is None
+    assert step.problem.load.damping is None
     assert abs(forces[0] - forces[1]) > 0.05 * forces[1]
     assert forces[2] == pytest.approx(forces[1], rel=1e-6)
     np.testing.assert_allclose(step.after.mechanics.u, elastic.after.mechanics.u, atol=1e-7)
@@ -74,7 +74,7 @@ def test_relaxation_ends_where_there_is_no_solution_and_counts_what_it_cost(slid
     step, level = relaxed(stubborn, damped, 4.0)
     assert stubborn.levels == [2.0, 1.0, 0.5]
     assert level == 1.0
-    assert step.problem.viscosity is not None
+    assert step.problem.load.damping is not None
     assert step.iterations > damped.iterations + 7
 
 
@@ -83,4 +83,4 @@ def test_the_last_solution_has_no_damping_at_all(sliding):
     weak = model.advance(state, target, LAST_LEVEL)
     step, level = relaxed(model, weak, LAST_LEVEL)
     assert level == 0.0
-    assert step.problem.viscosity is None
+    assert step.problem.load.damping is None
