@@ -94,7 +94,7 @@ report: figures claims sensitivity
 
 robustness: $(READY)
 	$(BIN)/treadfem sweep validation/studies/robustness.toml -o $(RESULTS)/robustness --resume
-	$(BIN)/python -m validation.sweeps.robustness $(RESULTS)/robustness/summary.csv
+	$(BIN)/python -m validation.convergence.robustness $(RESULTS)/robustness/summary.csv
 
 # A case that does not converge (exit code 3) is a row of the tables too.
 convergence: $(READY)

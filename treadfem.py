@@ -21,9 +21,11 @@ from fem.files.messages import BAD_INPUT, DONE, INTERRUPTED, NOT_CONVERGED, WARN
 from fem.files.terminal import lenient_streams, open_standard_descriptors
 from fem.results.output_folder import check_output_file, chosen_output, output_folder
 from validation.commands import add_arguments as add_paper_commands
+from validation.drawing import draw_missing
 
 if TYPE_CHECKING:
     from fem import Case
+    from fem.results.run_folder import RunFolder
 
 _STATUS_CODES = {"ok": DONE, "interrupted": INTERRUPTED}
 
@@ -169,17 +171,19 @@ def _run(arguments: argparse.Namespace) -> int:
 
 def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
     from fem import simulate
-    from fem.results.checkpoint import CHECKPOINT_FILE, remove_checkpoint
     from fem.results.result import read_summary
-    from fem.results.resume import resumable
+    from fem.results.run_folder import RunFolder
     from fem.stepping.progress import RunProgress
 
-    checkpoint = directory / CHECKPOINT_FILE
-    found = resumable(directory, case) if arguments.resume else "nothing"
+    folder = RunFolder(directory, case)
+    checkpoint = folder.checkpoint
+    found = folder.offers() if arguments.resume else "nothing"
     if not arguments.quiet:
-        _say_how_it_starts(found, checkpoint, resume=arguments.resume)
+        _say_how_it_starts(found, folder, resume=arguments.resume)
     if found == "finished":
-        _draw(case, directory, missing_only=True)
+        folder.export()
+        if case.output.figures:
+            draw_missing(directory)
         return _code(read_summary(directory), said=case.warnings, arguments=arguments)
     # Whatever is asked for meanwhile, what was accepted is written.
     with gently():
@@ -196,32 +200,26 @@ def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
                 file=sys.stderr,
             )
             return BAD_INPUT
-    _draw(case, directory)
+    if case.output.figures:
+        draw_missing(directory)
     if result.summary["status"] == "ok":
         # Only now: whatever came before can be interrupted, too.
-        remove_checkpoint(checkpoint)
+        checkpoint.unlink(missing_ok=True)
     return _close(result.summary, directory, case.warnings, arguments)
 
 
-def _draw(case: Case, directory: Path, *, missing_only: bool = False) -> None:
-    """Draw the figures of a run that is written."""
-    without_fields = "surface.png" if case.block.rigid else "onset.png"
-    last = directory / "figures" / ("final_state.png" if case.output.vtu else without_fields)
-    if case.output.figures and not (missing_only and last.exists()):
-        from validation.drawing.run_figures import write_run_figures
-
-        write_run_figures(directory)
-
-
-def _say_how_it_starts(found: str, checkpoint: Path, *, resume: bool) -> None:
+def _say_how_it_starts(found: str, folder: RunFolder, *, resume: bool) -> None:
     if found == "finished":
-        print(f"{checkpoint.parent} holds the finished run of this case: nothing to do")
+        print(f"{folder.directory} holds the finished run of this case: nothing to do")
+        kept, wanted = folder.snapshots, folder.case.output.snapshots
+        if kept != wanted:
+            print(f"it has {kept} snapshots, not {wanted}: without --resume it is run again")
     elif found == "checkpoint":
-        print(f"going on from {checkpoint}", flush=True)
+        print(f"going on from {folder.checkpoint}", flush=True)
     elif resume:
-        print(f"no checkpoint in {checkpoint.parent}: starting from the beginning", flush=True)
-    elif checkpoint.exists():
-        print(f"starting from the beginning; --resume goes on from {checkpoint}", flush=True)
+        print(f"no checkpoint in {folder.directory}: starting from the beginning", flush=True)
+    elif folder.checkpoint.exists():
+        print(f"starting from the beginning; --resume goes on from {folder.checkpoint}", flush=True)
 
 
 def _close(
@@ -293,9 +291,8 @@ def _add_sweep(commands: Any) -> None:
 
 
 def _sweep(arguments: argparse.Namespace) -> int:
-    from validation.sweeps.sweep import sweep
-    from validation.sweeps.sweep_progress import SweepBar, closing_line
-    from validation.sweeps.sweep_workers import SchedulerLostError
+    from fem.sweeps import SchedulerLostError, SweepBar, closing_line, sweep
+    from validation.studies import BASES
 
     directory = chosen_output(arguments.output, Path("results") / Path(arguments.study).stem)
     try:
@@ -306,6 +303,8 @@ def _sweep(arguments: argparse.Namespace) -> int:
                 workers=arguments.workers,
                 scheduler=arguments.scheduler,
                 resume=arguments.resume,
+                bases=BASES,
+                draw=draw_missing,
                 progress=bar,
                 confirm=lambda size: arguments.yes or _agreed(size),
                 warn=None if arguments.accept_unusual else _warn_of(arguments.study),
@@ -399,7 +398,7 @@ def _add_template(commands: Any) -> None:
 
 def _template(arguments: argparse.Namespace) -> int:
     if arguments.kind == "study":
-        from validation.sweeps.study_template import study_template
+        from fem.case.template import study_template
 
         sys.stdout.write(study_template())
     else:

@@ -231,6 +231,10 @@ def _add_partition(parser: argparse.ArgumentParser) -> None:
         help="at most that many per pressure and velocity (default %(default)s)",
     )  # fmt: skip
     parser.add_argument(
+        "--workers", type=_count, metavar="N",
+        help="simulations at a time (default: one per core)",
+    )  # fmt: skip
+    parser.add_argument(
         "--intervals", choices=("student", "profile"), default="student",
         help="95 %% intervals from the covariance or the profile of the sum of squares",
     )  # fmt: skip
@@ -244,6 +248,7 @@ def _add_partition(parser: argparse.ArgumentParser) -> None:
             profile=arguments.profile,
             simulations=arguments.simulations,
             intervals=arguments.intervals,
+            workers=arguments.workers,
             quiet=arguments.quiet,
         )
 

@@ -5,6 +5,7 @@ Everything is computed before anything is written, so that bad data leave no tra
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,6 @@ from calibration.fitting.parameter_file import parameter_text
 from calibration.friction.data import read_friction
 from calibration.friction.fit import compare_laws, fit_friction
 from calibration.partition.fit import PartitionFit, fit_partition
-from calibration.partition.simulation_progress import SimulationProgress
 from calibration.partition.simulation_store import SIMULATIONS_FOLDER, SimulationStore
 from calibration.plots import (
     plot_comparison,
@@ -207,6 +207,7 @@ def calibrate_partition(
     directory: Path,
     *,
     intervals: str = "student",
+    workers: int | None = None,
     quiet: bool = False,
     **options: Any,
 ) -> Outcome:
@@ -214,9 +215,9 @@ def calibrate_partition(
 
     The simulations are kept in `directory` as they finish (options of `fit_partition`).
     """
-    with SimulationProgress(quiet=quiet) as progress:
-        store = SimulationStore(directory / SIMULATIONS_FOLDER, progress)
-        found = fit_partition(path, case, store, **options)
+    say = None if quiet else partial(print, flush=True)
+    store = SimulationStore(directory / SIMULATIONS_FOLDER, workers, say)
+    found = fit_partition(path, case, store, **options)
     result = _with_intervals(found.result, intervals)
     result = replace(result, metadata={**result.metadata, "case_file": Path(case.source).name})
     files = _files(result, _partition_points(found))

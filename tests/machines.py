@@ -111,7 +111,7 @@ def contents(folder: Path) -> dict[str, object]:
     return {
         path.relative_to(folder).as_posix(): _content(path)
         for path in sorted(folder.rglob("*"))
-        if path.is_file() and path.name not in ("timings.csv", "run.log", "sweep.json")
+        if path.is_file() and path.name not in ("timings.csv", "run.log")
     }
 
 

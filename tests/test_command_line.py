@@ -16,8 +16,8 @@ import pytest
 import treadfem
 from fem.case.case import Case
 from fem.case.reading import parse_override
+from fem.sweeps.runs import StudyError
 from tests.wrong_inputs import LOADING
-from validation.sweeps.study_runs import StudyError
 
 ROOT = Path(__file__).parents[1]
 

@@ -23,9 +23,9 @@ import pytest
 import treadfem
 from fem.case.case import Case
 from fem.results.result import Result
+from fem.sweeps import case as sweep_case
 from tests.calibration.test_readme_examples import examples as calibrate_examples
 from tests.made_up_result import made_up_result
-from validation.sweeps import sweep_case
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -109,7 +109,7 @@ def made_up(case: Case, **options: object) -> Result:
 @pytest.fixture
 def made_up_runs(monkeypatch):
     monkeypatch.setattr(sweep_case, "simulate", made_up)
-    monkeypatch.setattr("validation.sweeps.study_runs.number_of_workers", lambda *_: 1)
+    monkeypatch.setattr("fem.sweeps.runs.number_of_workers", lambda *_: 1)
 
 
 #: Commands whose real runs take minutes, and why; here their simulations are made up.

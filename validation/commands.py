@@ -157,8 +157,8 @@ def _made(
     show: bool = False,
 ) -> bool:
     """Make something unless it is up to date, and say so; False if one of its runs failed."""
+    from fem.sweeps import StudyError
     from validation.paper.kept import kept
-    from validation.sweeps.study_runs import StudyError
 
     directory = Path(arguments.output)
     try:

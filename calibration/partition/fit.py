@@ -39,7 +39,9 @@ from calibration.partition.slides import (
     SMALLEST,
     Conditioned,
     PartitionModel,
+    RigidEstimate,
     Simulated,
+    Trial,
     constant,
     partition_table,
     power,
@@ -130,9 +132,10 @@ def fit_partition(
     _check_case(case)
     data = read_partition_data(source, case, profile=profile)
     model = PartitionModel(case, store)
-    found: list[Simulated] = []
-    for condition in data.conditions:
-        found.append(_discrete(model, condition, found, min(MOST_DISCRETE, simulations - 1)))
+    most = min(MOST_DISCRETE, simulations - 1)
+    # The first condition tells the others, which go side by side, how far off a rigid block is.
+    found = _discrete(model, data.conditions[:1], None, most)
+    found += _discrete(model, data.conditions[1:], found[0], most)
     result, slides, correction = _law(model, data, found, simulations)
     result = _completed(result, data, case, slides, correction)
     result = replace(result, warnings=(*result.warnings, *_too_hot(found)))
@@ -167,28 +170,42 @@ def _check_case(case: Case) -> None:
 
 
 def _discrete(
-    model: PartitionModel, condition: Condition, before: Sequence[Simulated], most: int
-) -> Simulated:
-    """Constant kappa of one condition; conditions before it tell how far off a rigid block is."""
-    rigid = model.rigid_estimate(condition)
-    kappa = model.clipped(rigid.kappa * _mean([s.kappa / s.rigid_kappa for s in before]))
-    share = _mean([s.share for s in before]) if before else model.first_share
-    platen = condition.pressure * (share if condition.of_contact else 1.0)
-    for count in range(1, most + 1):
-        slide = model.simulated(condition, constant(kappa, model.like), platen, rigid.m)
-        next_kappa = model.clipped(kappa * slide.misfit_ratio())
-        change = slide.largest_change(constant(next_kappa, model.like))
-        scale = slide.pressure_scale
-        done = change <= DISCRETE_TOLERANCE_K and abs(scale - 1.0) <= PRESSURE_TOLERANCE
-        kappa, platen = next_kappa, slide.next_platen
-        if done or count == most:
-            break
-    return Simulated(slide=slide, kappa=kappa, rigid_kappa=rigid.kappa, m=rigid.m, platen=platen)
+    model: PartitionModel, conditions: Sequence[Condition], like: Simulated | None, most: int
+) -> list[Simulated]:
+    """Constant kappas of some conditions, side by side; `like` is one that is done already."""
+    ratio = 1.0 if like is None else like.kappa / like.rigid_kappa
+    share = model.first_share if like is None else like.share
+    rigids = model.rigid_estimates(conditions)
+    trials = [
+        Trial(
+            condition,
+            constant(model.clipped(rigid.kappa * ratio), model.like),
+            condition.pressure * (share if condition.of_contact else 1.0),
+            rigid.m,
+        )
+        for condition, rigid in zip(conditions, rigids, strict=True)
+    ]
+    found: dict[int, Simulated] = {}
+    going = list(range(len(trials)))
+    for _ in range(most):
+        slides = model.simulated([trials[k] for k in going])
+        for k, slide in zip(going, slides, strict=True):
+            found[k] = _corrected(model, slide, rigids[k])
+            law = constant(found[k].kappa, model.like)
+            trials[k] = trials[k]._replace(law=law, platen=found[k].platen)
+        going = [k for k in going if not found[k].confirmed]
+    return [found[k] for k in range(len(trials))]
 
 
-def _mean(ratios: Sequence[float]) -> float:
-    """Geometric mean; one without numbers."""
-    return float(np.exp(np.mean(np.log(ratios)))) if len(ratios) else 1.0
+def _corrected(model: PartitionModel, slide: Conditioned, rigid: RigidEstimate) -> Simulated:
+    """What a simulation with a constant kappa says of the kappa that fits."""
+    kappa = model.clipped(slide.law.prefactor * slide.misfit_ratio())
+    change = slide.largest_change(constant(kappa, model.like))
+    pressed = abs(slide.pressure_scale - 1.0) <= PRESSURE_TOLERANCE
+    return Simulated(
+        slide=slide, kappa=kappa, rigid_kappa=rigid.kappa, m=rigid.m, platen=slide.next_platen,
+        confirmed=change <= DISCRETE_TOLERANCE_K and pressed,
+    )  # fmt: skip
 
 
 # -- power law ---------------------------------------------------------------------------------
@@ -208,10 +225,12 @@ def _law(
     rounds.clear()
     while True:
         law = power(result.theta, model.like)
-        slides = [
-            model.simulated(estimate.slide.condition, law, platen, estimate.m)
-            for estimate, platen in zip(found, platens, strict=True)
-        ]
+        slides = model.simulated(
+            [
+                Trial(estimate.slide.condition, law, platen, estimate.m)
+                for estimate, platen in zip(found, platens, strict=True)
+            ]
+        )
         rounds.append(slides)
         result = _fit_law(data, rounds, result.theta)
         law = power(result.theta, model.like)

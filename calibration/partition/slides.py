@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -160,6 +162,32 @@ class Conditioned:
         return np.flatnonzero(behind & (peak.T_max_C >= T))
 
 
+class Trial(NamedTuple):
+    """A block that is to slide.
+
+    Attributes
+    ----------
+    condition : Condition
+    law : HeatPartition
+    platen : float
+        Pressure on the top [N/mm^2].
+    m : float
+        Exponent of the temperature rise over the partition [-].
+    """
+
+    condition: Condition
+    law: HeatPartition
+    platen: float
+    m: float
+
+    @property
+    def rounded(self) -> Trial:
+        """With seven digits: the name of its folder then does not hang on the last bits."""
+        prefactor, exponent = _rounded(self.law.prefactor), _rounded(self.law.exponent)
+        law = replace(self.law, prefactor=prefactor, exponent=exponent)
+        return self._replace(law=law, platen=_rounded(self.platen))
+
+
 @dataclass(frozen=True, kw_only=True)
 class RigidEstimate:
     """Partition that a rigid block needs, and how its temperature rise depends on it."""
@@ -182,6 +210,8 @@ class Simulated:
         From the rigid block [-].
     platen : float
         Pressure on the top to go on with [N/mm^2].
+    confirmed : bool
+        Whether the simulation with its partition would hardly differ.
     """
 
     slide: Conditioned
@@ -189,6 +219,7 @@ class Simulated:
     rigid_kappa: float
     m: float
     platen: float
+    confirmed: bool
 
     @property
     def share(self) -> float:
@@ -233,55 +264,69 @@ class PartitionModel:
         """The partition inside what can be simulated, with the digits that matter."""
         return _rounded(float(np.clip(kappa, SMALLEST, self.cap)))
 
-    def rigid_estimate(self, condition: Condition) -> RigidEstimate:
-        """Partition of a rigid block with the stated pressure, from two of them."""
+    def rigid_estimates(self, conditions: Sequence[Condition]) -> list[RigidEstimate]:
+        """Partitions of rigid blocks with the stated pressures, from two blocks each."""
         low, high = (self.clipped(share * self.cap) for share in _RIGID)
-        blocks = [
-            self._run(condition, constant(kappa, self.like), condition.pressure, 1.0, rigid=True)
-            for kappa in (low, high)
-        ]
-        rises = [float(np.mean(block.simulated)) - block.ambient for block in blocks]
-        m = float(np.log(rises[1] / rises[0]) / np.log(high / low))
-        last = replace(blocks[1], m=m)
-        return RigidEstimate(kappa=high * last.misfit_ratio(), m=m)
+        blocks = self._run(
+            [
+                Trial(condition, constant(kappa, self.like), condition.pressure, 1.0)
+                for condition in conditions
+                for kappa in (low, high)
+            ],
+            rigid=True,
+        )
+        estimates = []
+        for pair in zip(blocks[::2], blocks[1::2], strict=True):
+            rises = [float(np.mean(block.simulated)) - block.ambient for block in pair]
+            m = float(np.log(rises[1] / rises[0]) / np.log(high / low))
+            last = replace(pair[1], m=m)
+            estimates.append(RigidEstimate(kappa=high * last.misfit_ratio(), m=m))
+        return estimates
 
-    def simulated(
-        self, condition: Condition, law: HeatPartition, platen: float, m: float
-    ) -> Conditioned:
-        """Simulate (or read) the block at a condition with a partition law."""
-        self.counts[condition.name] = self.counts.get(condition.name, 0) + 1
-        return self._run(condition, law, platen, m, rigid=self.case.block.rigid)
+    def simulated(self, trials: Sequence[Trial]) -> list[Conditioned]:
+        """Simulate (or read) the block at conditions with partition laws, side by side."""
+        for trial in trials:
+            name = trial.condition.name
+            self.counts[name] = self.counts.get(name, 0) + 1
+        return self._run(trials, rigid=self.case.block.rigid)
 
-    def _run(
-        self, condition: Condition, law: HeatPartition, platen: float, m: float, *, rigid: bool
-    ) -> Conditioned:
-        law = replace(law, prefactor=_rounded(law.prefactor), exponent=_rounded(law.exponent))
-        platen = _rounded(platen)
+    def _run(self, trials: Sequence[Trial], *, rigid: bool) -> list[Conditioned]:
+        trials = [trial.rounded for trial in trials]
         kind = "rigid block, " if rigid else ""
-        case = self.case.with_overrides(
+        slides = self.store.slides(
+            [
+                (self._case(trial, rigid), f"{kind}{trial.condition.name}, {_described(trial.law)}")
+                for trial in trials
+            ]
+        )
+        return [
+            Conditioned(
+                condition=trial.condition,
+                slide=slide,
+                law=trial.law,
+                platen=trial.platen,
+                ambient=self.case.heat.ambient_C,
+                m=trial.m,
+                number=self.counts.get(trial.condition.name, 0),
+            )
+            for trial, slide in zip(trials, slides, strict=True)
+        ]
+
+    def _case(self, trial: Trial, rigid: bool) -> Case:
+        return self.case.with_overrides(
             {
                 "block.rigid": rigid,
-                "loading.mean_pressure_N_per_mm2": platen,
-                "loading.velocity_mm_per_s": condition.velocity,
-                "heat.partition": partition_table(law),
+                "loading.mean_pressure_N_per_mm2": trial.platen,
+                "loading.velocity_mm_per_s": trial.condition.velocity,
+                "heat.partition": partition_table(trial.law),
                 "output.snapshots": 1,
                 "output.vtu": False,
                 "output.figures": False,
             }
         )
-        return Conditioned(
-            condition=condition,
-            slide=self.store.slide(case, f"{kind}{condition.name}, {_described(law)}"),
-            law=law,
-            platen=platen,
-            ambient=self.case.heat.ambient_C,
-            m=m,
-            number=self.counts.get(condition.name, 0),
-        )
 
 
 def _rounded(value: float) -> float:
-    """Seven digits: the name of a simulation then does not hang on the last bits."""
     return float(f"{value:.7g}")
 
 

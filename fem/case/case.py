@@ -180,6 +180,10 @@ class Case(Section):
         """Return the resolved case as nested dictionaries with the keys of the case file."""
         return self.model_dump(exclude_none=True, by_alias=True)
 
+    def physics(self) -> dict[str, Any]:
+        """Return the tables of the resolved case that decide the result, all but ``output``."""
+        return {name: table for name, table in self.to_dict().items() if name != "output"}
+
     def to_toml(self, heading: str = "Resolved case: every key as it is used.") -> str:
         """Return the resolved case as TOML with a comment of meaning and unit at each key."""
         lines = [f"# {line}".rstrip() for line in heading.splitlines()]
@@ -195,6 +199,6 @@ class Case(Section):
         return hash(self.hash())
 
     def hash(self) -> str:
-        """Return the SHA-256 of the resolved content (not of the file's name or layout)."""
-        canonical = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"))
+        """Return the SHA-256 of what decides the result: of all resolved keys but `[output]`."""
+        canonical = json.dumps(self.physics(), sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()

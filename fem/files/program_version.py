@@ -1,33 +1,73 @@
-"""Which program made a result: the released version and a fingerprint of what computes."""
+"""Which program made a result: the released version and a fingerprint of what it computes."""
 
 from __future__ import annotations
 
+import ast
 import hashlib
+from collections.abc import Iterable
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-import contact
-import materials
-
-#: Folders of the packages that decide the numbers of a run.
-_COMPUTING = (
-    Path(str(materials.__file__)).parent,
-    Path(str(contact.__file__)).parent,
-    Path(__file__).parents[1],
-)
+#: Where the packages of the program lie side by side.
+ROOT = Path(__file__).parents[2]
+#: The packages that decide the numbers of a run, and what does not although it lies among them.
+_COMPUTING = ("materials", "contact", "fem")
+_NOT_COMPUTING = ROOT / "fem" / "sweeps"
+#: Packages of others that do.
+_NUMERICAL = ("numpy", "scipy", "scikit-fem", "pypardiso")
 
 
 @cache
 def program_version() -> str:
-    """Return e.g. ``0.1.0+5c0ffee5``: any change of the computing code changes the second part."""
+    """Return e.g. ``0.1.0+5c0ffee5``: what may change a number changes the second part.
+
+    That is the meaning of the computing code and the versions of the numerical packages; comments,
+    docstrings and layout may change.
+    """
+    sources = (
+        path
+        for package in _COMPUTING
+        for path in sorted((ROOT / package).rglob("*.py"))
+        if not path.is_relative_to(_NOT_COMPUTING)
+    )
+    released = version_of("treadfem") or "0"
+    return f"{released}+{fingerprint(sources, _NUMERICAL)[:8]}"
+
+
+def fingerprint(files: Iterable[Path], packages: Iterable[str] = ()) -> str:
+    """Digest of what files of the program mean, and of the versions of other packages.
+
+    Of a Python file its syntax tree counts, without docstrings; of any other its bytes.
+    """
     digest = hashlib.sha256()
-    for folder in _COMPUTING:
-        for path in sorted(folder.rglob("*.py")):
-            digest.update(path.relative_to(folder.parent).as_posix().encode())
-            digest.update(path.read_bytes())
+    for package in packages:
+        digest.update(f"{package} {version_of(package)}\n".encode())
+    for path in files:
+        digest.update(path.relative_to(ROOT).as_posix().encode())
+        content = path.read_bytes()
+        if path.suffix == ".py":
+            content = _meaning(content).encode()
+        digest.update(content)
+    return digest.hexdigest()
+
+
+def version_of(package: str) -> str | None:
+    """Version of an installed package, None if there is none."""
     try:
-        released = version("treadfem")
+        return version(package)
     except PackageNotFoundError:
-        released = "0"
-    return f"{released}+{digest.hexdigest()[:8]}"
+        return None
+
+
+def _meaning(source: bytes) -> str:
+    """A syntax tree in words; a text that stands alone in a body is a docstring."""
+    tree = ast.parse(source)
+    for node in ast.walk(tree):
+        if isinstance(body := getattr(node, "body", None), list):
+            node.body = [line for line in body if not _is_text(line)]  # type: ignore[attr-defined]
+    return ast.dump(tree)
+
+
+def _is_text(line: ast.AST) -> bool:
+    return isinstance(line, ast.Expr) and isinstance(line.value, ast.Constant)

@@ -105,7 +105,7 @@ def write_checkpoint(path: str | Path, case: Case, content: Any) -> None:
         "digest": _digest(tree, arrays),
         "program": program_version(),
         "case_hash": case.hash(),
-        "case": case.to_dict(),
+        "case": case.physics(),
         "content": tree,
     }
     text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
@@ -152,11 +152,6 @@ def _digest(tree: Any, arrays: Mapping[str, Array]) -> str:
     return digest.hexdigest()
 
 
-def remove_checkpoint(path: str | Path) -> None:
-    """Remove the checkpoint of a finished run."""
-    Path(path).unlink(missing_ok=True)
-
-
 def _contents(path: Path) -> tuple[dict[str, Any], dict[str, Array]]:
     try:
         data = path.read_bytes()
@@ -187,7 +182,7 @@ def _check_version(path: Path, about: Mapping[str, Any]) -> None:
 def _check_case(path: Path, about: Mapping[str, Any], case: Case) -> None:
     if about.get("case_hash") == case.hash():
         return
-    difference = first_difference(about.get("case"), case.to_dict())
+    difference = first_difference(about.get("case"), case.physics())
     if difference is None:
         raise _refused(path, "case", f"hash {about.get('case_hash')}", case.hash())
     key, found, expected = difference

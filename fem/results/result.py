@@ -19,8 +19,8 @@ from fem.files.atomic import staged_directory
 from fem.results.bottom_history import BOTTOM_FILE, BottomHistory
 from fem.results.boundary import surface_table
 from fem.results.columns import BOUNDARY, HISTORY, SUMMARY, SURFACE, in_order
+from fem.results.fields import FIELDS_FILE, read_fields, write_fields
 from fem.results.snapshot import BlockGeometry, Snapshot
-from fem.results.vtu import FIELD_COLLECTIONS, collected, read_fields, write_fields
 
 CASE_FILE = "case.toml"
 LOG_FILE = "run.log"
@@ -29,15 +29,18 @@ SURFACE_FILE = "surface.csv"
 BOUNDARY_FILE = "boundary.csv"
 SUMMARY_JSON = "summary.json"
 SUMMARY_CSV = "summary.csv"
-FIELD_FILES = ("block_*.vtu", "road_*.vtu", *FIELD_COLLECTIONS)
+#: Of the export for ParaView; the last one is written last.
+LAST_VTU_FILE = "road.pvd"
+VTU_FILES = ("block_*.vtu", "road_*.vtu", "block.pvd", LAST_VTU_FILE)
 FIGURES_FOLDER = "figures"
-#: Files of every run, fields or not.
+#: Files of every run.
 RUN_FILES = (
     CASE_FILE,
     LOG_FILE,
     HISTORY_FILE,
     SURFACE_FILE,
     BOUNDARY_FILE,
+    FIELDS_FILE,
     SUMMARY_CSV,
     SUMMARY_JSON,
 )
@@ -123,12 +126,12 @@ class Result:
         )
 
     def write(self, directory: str | Path) -> None:
-        """Write case, log, tables, summary and (if the case asks for them) field files.
+        """Write case, log, tables, summary, fields and (if the case asks for them) VTU files.
 
         Everything is written into a temporary folder first; see `staged_directory`.
         """
         # Figures of an earlier result are drawn anew from this one, or they are not there.
-        outdated = (*FIELD_FILES, BOTTOM_FILE, f"{FIGURES_FOLDER}/*.png")
+        outdated = (*VTU_FILES, BOTTOM_FILE, f"{FIGURES_FOLDER}/*.png")
         with staged_directory(directory, outdated=outdated, last=SUMMARY_JSON) as stage:
             (stage / CASE_FILE).write_text(self.case.to_toml(), encoding="utf-8")
             (stage / LOG_FILE).write_text("".join(f"{x}\n" for x in self.log), encoding="utf-8")
@@ -138,12 +141,15 @@ class Result:
             if self.bottom is not None:
                 self.bottom.write(stage / BOTTOM_FILE)
             write_summary(stage, self.summary)
+            write_fields(stage / FIELDS_FILE, self.geometry, self.snapshots)
             if self.case.output.vtu and self.snapshots:
-                write_fields(stage, self.geometry, self.snapshots)
+                from fem.results.vtu import write_vtu
+
+                write_vtu(stage, self.geometry, self.snapshots)
 
     @classmethod
     def read(cls, directory: str | Path) -> Result:
-        """Read a folder that `write` made; it needs its field files.
+        """Read a folder that `write` made, with or without VTU files.
 
         Raises
         ------
@@ -151,7 +157,7 @@ class Result:
             If a file is missing or unreadable, naming it.
         """
         directory = Path(directory)
-        geometry, snapshots = read_fields(directory)
+        geometry, snapshots = read_fields(directory / FIELDS_FILE)
         bottom = directory / BOTTOM_FILE
         return cls(
             case=Case.from_toml(_existing(directory / CASE_FILE)),
@@ -208,18 +214,6 @@ def read_summary(directory: str | Path) -> dict[str, Any]:
         if not isinstance(summary[key], kind) or isinstance(summary[key], bool):
             raise ValueError(f"{path}: {key} is {describe(summary[key])}, not {words}")
     return summary
-
-
-def missing_files(directory: str | Path, case: Case) -> list[str]:
-    """Names of the files that the finished run of a case has and the folder has not."""
-    directory = Path(directory)
-    fields = FIELD_COLLECTIONS if case.output.vtu else ()
-    missing = [name for name in (*RUN_FILES, *fields) if not (directory / name).is_file()]
-    for name in set(fields) - set(missing):
-        missing += [
-            part for part in collected(directory / name) if not (directory / part).is_file()
-        ]
-    return missing
 
 
 def read_table(path: str | Path, required: tuple[str, ...]) -> pd.DataFrame:

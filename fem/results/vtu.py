@@ -1,5 +1,6 @@
-"""Field files for ParaView: VTU by meshio, collected over time in a `.pvd`.
+"""An export of the fields for ParaView: VTU by meshio, collected over time in a `.pvd`.
 
+Nothing in this program reads it back.
 Cell order of VTK's symmetric tensors is XX, YY, ZZ, XY, YZ, XZ.
 """
 
@@ -30,14 +31,11 @@ PRESSURE = "volumetric_stress_N_per_mm2"
 TIME = "time_s"
 DISTANCE = "sliding_distance_mm"
 
-#: What lists the field files of a run.
-FIELD_COLLECTIONS = ("block.pvd", "road.pvd")
-
 #: Position of xx, yy, zz, xy in VTK's order.
 _VTK_POSITION = (0, 1, 2, 3)
 
 
-def write_fields(
+def write_vtu(
     directory: str | Path, geometry: BlockGeometry, snapshots: Sequence[Snapshot]
 ) -> None:
     """Write `block_*.vtu`, `road_*.vtu`, `block.pvd` and `road.pvd` into an existing folder.
@@ -53,40 +51,6 @@ def write_fields(
         _write(directory / _name("road", number), _road_mesh(snapshot))
     for part in ("block", "road"):
         _write_collection(directory / f"{part}.pvd", part, times)
-
-
-def read_fields(directory: str | Path) -> tuple[BlockGeometry, list[Snapshot]]:
-    """Read what `write_fields` wrote.
-
-    Raises
-    ------
-    ValueError
-        If the folder has no field files, or one of them is not readable.
-    """
-    directory = Path(directory)
-    names = sorted(directory.glob("block_*.vtu"))
-    if not names:
-        raise ValueError(f"{directory} has no field files block_*.vtu (output.vtu = true?)")
-    geometry = None
-    snapshots = []
-    for name in names:
-        block, road = _read(name), _read(name.with_name(name.name.replace("block", "road")))
-        if geometry is None:
-            geometry = BlockGeometry(
-                points=np.ascontiguousarray(block.points[:, :2]), cells=_quads(block)
-            )
-        snapshots.append(_snapshot(block, road))
-    assert geometry is not None
-    return geometry, snapshots
-
-
-def collected(path: str | Path) -> list[str]:
-    """Names of the field files that a `.pvd` lists; one that cannot be there if it is damaged."""
-    try:
-        root = ElementTree.parse(path).getroot()
-    except ElementTree.ParseError:
-        return [f"(listed in the damaged {Path(path).name})"]
-    return [Path(entry.get("file", "?")).name for entry in root.iter("DataSet")]
 
 
 def _name(part: str, number: int) -> str:
@@ -159,34 +123,3 @@ def _write_collection(path: Path, part: str, times: Sequence[float]) -> None:
         )
     ElementTree.indent(root)
     ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
-
-
-def _read(path: Path) -> meshio.Mesh:
-    try:
-        # The reader of the format itself: `meshio.read` ends the program on a damaged file.
-        return meshio.vtu.read(str(path))
-    except (OSError, meshio.ReadError, ElementTree.ParseError, ValueError) as error:
-        raise ValueError(f"{path} is not a readable field file ({error})") from None
-
-
-def _quads(mesh: meshio.Mesh) -> NDArray[np.int64]:
-    return np.asarray(mesh.cells_dict["quad"], dtype=np.int64)
-
-
-def _cell(mesh: meshio.Mesh, name: str) -> FloatArray:
-    return np.asarray(mesh.cell_data_dict[name]["quad"], dtype=float)
-
-
-def _snapshot(block: meshio.Mesh, road: meshio.Mesh) -> Snapshot:
-    return Snapshot(
-        time_s=float(_cell(block, TIME)[0]),
-        sliding_distance_mm=float(_cell(block, DISTANCE)[0]),
-        displacement=np.ascontiguousarray(block.point_data[DISPLACEMENT][:, :2]),
-        temperature=np.asarray(block.point_data[TEMPERATURE]),
-        cauchy_stress=np.ascontiguousarray(_cell(block, STRESS)[:, _VTK_POSITION]),
-        stretch=_cell(block, STRETCH),
-        pressure=_cell(block, PRESSURE),
-        road_points=np.ascontiguousarray(road.points[:, :2]),
-        road_cells=_quads(road),
-        road_temperature=np.asarray(road.point_data[TEMPERATURE]),
-    )

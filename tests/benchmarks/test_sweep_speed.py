@@ -17,7 +17,7 @@ import pandas as pd
 import psutil
 import pytest
 
-from validation.sweeps.sweep import sweep
+from fem.sweeps.sweep import sweep
 
 pytest.importorskip("distributed", reason="dask.distributed is not installed (extra sweep)")
 
@@ -82,7 +82,7 @@ def times(directory: Path) -> pd.DataFrame:
     """CPU and wall time of each case, and when it ended (its marker is written) [s]."""
     table = pd.read_csv(directory / "timings.csv")
     table["end"] = [
-        (directory / "runs" / case / "sweep.json").stat().st_mtime for case in table["case"]
+        (directory / "runs" / case / "summary.json").stat().st_mtime for case in table["case"]
     ]
     return table.assign(start=table["end"] - table["wall_s"])
 

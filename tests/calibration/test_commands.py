@@ -12,10 +12,10 @@ from calibration import commands
 from calibration.conductance.fit import synthetic_heating_record
 from calibration.conductance.heating_rig import HeatingRig
 from calibration.datasets import dataset_path
-from calibration.partition import simulation_store
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synthetic_sweeps
 from contact import HuemerFriction
 from fem import simulate
+from fem.sweeps import case as sweep_case
 from materials import WLF
 from tests.calibration.partition.made_up_slides import RIGID
 
@@ -176,7 +176,7 @@ def partition_files(tmp_path):
     data, case = tmp_path / "slides.csv", tmp_path / "block.toml"
     data.write_text(SLIDES)
     case.write_text(RIGID)
-    return ["partition", data, "--case", case, "-o", tmp_path / "o"]
+    return ["partition", data, "--workers", "1", "--case", case, "-o", tmp_path / "o"]
 
 
 def test_partition_writes_law_points_and_discrete_estimates(tmp_path, capsys):
@@ -208,11 +208,11 @@ def test_partition_goes_on_after_an_interruption(tmp_path, monkeypatch, capsys):
         made.append(case)
         return simulate(case, **options)
 
-    monkeypatch.setattr(simulation_store, "simulate", interrupted)
+    monkeypatch.setattr(sweep_case, "simulate", interrupted)
     with pytest.raises(KeyboardInterrupt):
         run(words)
     assert not (tmp_path / "o" / "parameters.toml").exists()
-    monkeypatch.setattr(simulation_store, "simulate", simulate)
+    monkeypatch.setattr(sweep_case, "simulate", simulate)
     capsys.readouterr()
     assert run(words) == 0
     rest = capsys.readouterr().out.count("simulation ")
@@ -225,7 +225,7 @@ def test_partition_goes_on_after_an_interruption(tmp_path, monkeypatch, capsys):
 
 def test_a_simulation_that_stops_is_said_with_exit_code_3(tmp_path, capsys):
     words = partition_files(tmp_path)
-    words[3].write_text(RIGID.replace("rigid = true", ""))
+    words[5].write_text(RIGID.replace("rigid = true", ""))
     options = ["--set", "solver.newton_iterations_max=1", "--set", "solver.step_mm_min=0.01"]
     assert run([*words, *options, "--quiet"]) == 3
     printed = capsys.readouterr()

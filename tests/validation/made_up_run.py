@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from fem.case.case import Case
 from fem.results.result import Result
+from fem.sweeps.runs import StudyRun
+from fem.sweeps.study import StudyCase
 from tests.made_up_result import made_up_result
-from validation.sweeps.study import StudyCase
-from validation.sweeps.study_runs import StudyRun
 
 
 def made_up_run(**overrides: object) -> StudyRun:

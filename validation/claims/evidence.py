@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 
 from contact.friction import ExponentialFriction, HuemerFriction
 from fem.results.result import Result
+from fem.sweeps import StudyRun, study_runs
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Hyperelastic
 from validation.drawing.state_panels import reached
 from validation.paper.introductory import introductory_run
-from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import StudyRun, study_runs
+from validation.studies import cases_of
 
 EXPONENTIAL, HUEMER = "exponential", "huemer"
 LAWS = (EXPONENTIAL, HUEMER)
@@ -106,7 +106,7 @@ class Evidence:
         return self._study("claims")
 
     def _study(self, name: str) -> list[StudyRun]:
-        return study_runs(STUDIES / f"{name}.toml", self.directory)
+        return study_runs(cases_of(name), self.directory)
 
 
 def finished(result: Result, name: str) -> Result:

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from fem.case.case import Case
 from fem.results.columns import HISTORY
-from fem.results.result import HISTORY_FILE, read_summary, read_table
-from validation.sweeps.study import StudyCase, read_study
-from validation.sweeps.sweep_case import RUNS_FOLDER
+from fem.results.result import HISTORY_FILE, read_table
+from fem.results.run_folder import RunFolder
+from fem.sweeps import RUNS_FOLDER, StudyCase
+from validation.studies import cases_of
 
 #: Motions of the platen at which the onset is looked at [mm].
 ONSET_MM = (0.1625, 0.4156, 0.9852, 1.8)
@@ -29,7 +30,7 @@ class SweptRun:
     summary: dict[str, Any]
 
 
-def swept_runs(study: Path, directory: Path) -> list[SweptRun]:
+def swept_runs(study: str, directory: Path) -> list[SweptRun]:
     """Runs of a study in the folder of its sweep, in the order of the study.
 
     Raises
@@ -37,15 +38,16 @@ def swept_runs(study: Path, directory: Path) -> list[SweptRun]:
     ValueError
         If one is missing, naming it.
     """
-    runs = Path(directory) / RUNS_FOLDER
-    return [
-        SweptRun(
-            study_case=case,
-            history=read_table(runs / case.name / HISTORY_FILE, HISTORY),
-            summary=read_summary(runs / case.name),
-        )
-        for case in read_study(study)
-    ]
+    return [_swept(case, directory / RUNS_FOLDER / case.name) for case in cases_of(study)]
+
+
+def _swept(case: StudyCase, folder: Path) -> SweptRun:
+    summary = RunFolder(folder, case.case).of_case()
+    if summary is None:
+        raise ValueError(f"{folder} does not hold the run of this case of the study")
+    return SweptRun(
+        study_case=case, history=read_table(folder / HISTORY_FILE, HISTORY), summary=summary
+    )
 
 
 def force_at(history: pd.DataFrame, distances: NDArray[np.float64]) -> NDArray[np.float64]:

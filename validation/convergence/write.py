@@ -17,7 +17,6 @@ from fem.files.atomic import write_text
 from validation.convergence.onset import swept_runs
 from validation.convergence.table import CONVERGENCE, ONSET, convergence_table, onset_table
 from validation.convergence.text import convergence_text, onset_text
-from validation.sweeps.study import STUDIES
 
 README = Path(__file__).parents[2] / "README.md"
 BEGIN, END = "<!-- convergence:begin -->", "<!-- convergence:end -->"
@@ -26,8 +25,8 @@ BEGIN, END = "<!-- convergence:begin -->", "<!-- convergence:end -->"
 def write_tables(convergence: Path, onset: Path) -> None:
     """Write both committed tables from the folders of their sweeps."""
     tables = {
-        CONVERGENCE: convergence_table(swept_runs(STUDIES / "convergence.toml", convergence)),
-        ONSET: onset_table(swept_runs(STUDIES / "onset.toml", onset)),
+        CONVERGENCE: convergence_table(swept_runs("convergence", convergence)),
+        ONSET: onset_table(swept_runs("onset", onset)),
     }
     for path, table in tables.items():
         write_text(path, table.to_csv(index=False, lineterminator="\n"))

@@ -30,7 +30,7 @@ def write_run_figures(directory: str | Path) -> list[Path]:
     Parameters
     ----------
     directory : str or Path
-        A folder that `Result.write` made. Without field files the final state is left out.
+        A folder that `Result.write` made.
 
     Returns
     -------
@@ -50,8 +50,9 @@ def write_run_figures(directory: str | Path) -> list[Path]:
     if (directory / BOTTOM_FILE).is_file() and history["sliding_distance_mm"].max() > 0.0:
         bottom = BottomHistory.read(directory / BOTTOM_FILE)
         paths.append(save(draw_onset(history, bottom), figures / "onset.png"))
-    if any(directory.glob("block_*.vtu")):
-        paths.append(save(draw_final_state(Result.read(directory)), figures / "final_state.png"))
+    result = Result.read(directory)
+    if result.snapshots:
+        paths.append(save(draw_final_state(result), figures / "final_state.png"))
     return paths
 
 

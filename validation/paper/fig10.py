@@ -7,17 +7,17 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
+from fem.sweeps import StudyRun, study_runs
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.state_panels import reached
 from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
 from validation.paper.fig9 import COMPOUND
-from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import StudyRun, study_runs
+from validation.studies import cases_of
 
 
 def make(directory: Path) -> Path:
     """Draw figure 10 from the study of compounds and write the curves beside it."""
-    runs = study_runs(STUDIES / "compounds.toml", directory)
+    runs = study_runs(cases_of("compounds"), directory)
     profile_table(runs, {"compound": COMPOUND}).to_csv(
         directory / "fig10.csv", index=False, lineterminator="\n"
     )

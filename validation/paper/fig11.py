@@ -6,6 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from fem.sweeps import StudyRun, study_runs
 from validation.drawing.state_panels import reached
 from validation.drawing.style import BLUE, PAGE_WIDTH, VERMILLION, new_figure, save, styled
 from validation.measured.measured_points import (
@@ -15,8 +16,7 @@ from validation.measured.measured_points import (
 )
 from validation.measured.measurements import Measurements
 from validation.paper.fig10 import profile_table
-from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import StudyRun, study_runs
+from validation.studies import cases_of
 
 VELOCITY, LAW = "loading.velocity_mm_per_s", "friction.law"
 LAW_LOOKS = {"exponential": (VERMILLION, "--"), "huemer": (BLUE, "-")}
@@ -28,7 +28,7 @@ def make(directory: Path, measured: Measurements | None = None) -> Path:
 
     Measured profiles are drawn into the panel of their velocity.
     """
-    runs = study_runs(STUDIES / "velocities.toml", directory)
+    runs = study_runs(cases_of("velocities"), directory)
     table = profile_table(runs, {"velocity_mm_per_s": VELOCITY, "law": LAW})
     table.to_csv(directory / "fig11.csv", index=False, lineterminator="\n")
     return save(draw(runs, measured), directory / "fig11.png")

@@ -9,13 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from fem.sweeps import StudyRun, study_runs
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.style import BLACK, PAGE_WIDTH, new_figure, save, styled
 from validation.measured.measured_points import MEASURED_MARK, draw_measured_points
 from validation.measured.measurements import Measurements
 from validation.paper.fig11 import LAW_LABELS, LAW_LOOKS
-from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import StudyRun, study_runs
+from validation.studies import cases_of
 
 #: Columns of the table and the case keys or summary keys they come from.
 KEYS = {
@@ -42,7 +42,7 @@ def make(directory: Path, measured: Measurements | None = None) -> Path:
 
     Measured points are drawn into the panel of their velocity.
     """
-    table = point_table(study_runs(STUDIES / "pressures.toml", directory))
+    table = point_table(study_runs(cases_of("pressures"), directory))
     table.to_csv(directory / "fig12.csv", index=False, lineterminator="\n")
     return save(draw(table, measured), directory / "fig12.png")
 

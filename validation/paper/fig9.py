@@ -11,6 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from fem.sweeps import StudyRun, study_runs
 from validation.analysis.shape import contour
 from validation.drawing.block_drawing import (
     Window,
@@ -23,8 +24,7 @@ from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.field_panels import BlockState, stress_scale, vertical_stress
 from validation.drawing.state_panels import last_state, reached
 from validation.drawing.style import BLACK, PAGE_WIDTH, STRESS_MAP, new_figure, save, styled
-from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import StudyRun, study_runs
+from validation.studies import cases_of
 
 COMPOUND = "rubber.compound"
 #: Rows of panels above the contours.
@@ -33,7 +33,7 @@ PANEL_ROWS = 3
 
 def make(directory: Path) -> Path:
     """Draw figure 9 from the study of compounds and write extremes and contours beside it."""
-    runs = study_runs(STUDIES / "compounds.toml", directory)
+    runs = study_runs(cases_of("compounds"), directory)
     states = by_compound(runs)
     extremes_table(states).to_csv(directory / "fig9.csv", index=False, lineterminator="\n")
     contour_table(states).to_csv(directory / "fig9_contours.csv", index=False, lineterminator="\n")

@@ -6,13 +6,14 @@ from pathlib import Path
 
 from fem.case.case import Case
 from fem.results.result import Result
-from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import holds, read_run, simulate_missing
+from fem.results.run_folder import RunFolder
+from fem.sweeps import read_run, simulate_missing
+from validation.studies import BASES
 
 
 def introductory_case() -> Case:
     """The introductory example as a case."""
-    return Case.from_toml(STUDIES / "introductory.toml")
+    return Case.from_toml(BASES["introductory"])
 
 
 def introductory_run(directory: str | Path) -> Result:
@@ -22,10 +23,10 @@ def introductory_run(directory: str | Path) -> Result:
     `runs/introductory` inside the folder.
     """
     directory = Path(directory)
-    own = directory / "runs" / "introductory"
+    own = directory.absolute() / "runs" / "introductory"
     case = introductory_case()
     beside = directory.parent / "run"
-    if holds(beside, case):
+    if RunFolder(beside, case).finished() is not None:
         return read_run(beside)
-    simulate_missing([(own, case)])
+    simulate_missing({own: case})
     return read_run(own)

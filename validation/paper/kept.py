@@ -1,8 +1,9 @@
 """Figures and tables that are up to date are not made again.
 
 Beside what is made into a folder, ``made/NAME.json`` keeps what it was made from and with: the
-program, the code and data files of validation and calibration, the drawing packages, and files
-that the user named. As long as all that is the same and the files are untouched, they stay.
+program, the meaning of the code and the data files of validation and calibration, the drawing
+packages, and files that the user named. As long as all that is the same and the files are
+untouched, they stay.
 """
 
 from __future__ import annotations
@@ -12,16 +13,13 @@ import json
 import re
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import calibration
-import validation
 from fem.files.atomic import write_text
-from fem.files.program_version import program_version
+from fem.files.program_version import ROOT, fingerprint, program_version
 
-_FOLDERS = tuple(Path(str(package.__file__)).parent for package in (calibration, validation))
+_FOLDERS = (ROOT / "calibration", ROOT / "validation")
 _SUFFIXES = {".py", ".toml", ".csv", ".html"}
 _PACKAGES = ("matplotlib", "numpy", "pandas", "scipy")
 
@@ -118,15 +116,9 @@ def _fingerprint(inputs: tuple[str, ...]) -> str:
 
 @cache
 def _program_fingerprint() -> str:
-    digest = hashlib.sha256(program_version().encode())
-    for package in _PACKAGES:
-        digest.update(f"{package} {version(package)}".encode())
+    return program_version() + fingerprint(_sources(), _PACKAGES)
+
+
+def _sources() -> Iterator[Path]:
     for folder in _FOLDERS:
-        for path in _sources(folder):
-            digest.update(path.relative_to(folder.parent).as_posix().encode())
-            digest.update(path.read_bytes())
-    return digest.hexdigest()
-
-
-def _sources(folder: Path) -> Iterator[Path]:
-    return (path for path in sorted(folder.rglob("*")) if path.suffix in _SUFFIXES)
+        yield from (path for path in sorted(folder.rglob("*")) if path.suffix in _SUFFIXES)

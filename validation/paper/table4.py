@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pandas as pd
 
+from fem.sweeps import StudyRun, study_runs
 from validation.analysis.paper_numbers import PAPER_N_PER_MM
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.paper.fig9 import COMPOUND
-from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import StudyRun, study_runs
+from validation.studies import cases_of
 
 _HEADING = """\
 Table 4: friction force, mean over the sliding phase, per mm of depth.
@@ -20,7 +20,7 @@ The paper's unit is kN for a plane model 1 m deep, which is the same number in N
 
 def make(directory: Path) -> Path:
     """Write table 4 as CSV and as text; the text's path is returned."""
-    table = force_table(study_runs(STUDIES / "compounds.toml", directory))
+    table = force_table(study_runs(cases_of("compounds"), directory))
     table.to_csv(directory / "table4.csv", index=False, lineterminator="\n")
     path = directory / "table4.txt"
     readable = table.to_string(index=False, float_format=lambda value: f"{value:.2f}", na_rep="-")

@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from fem.case.case import Case
-from fem.case.errors import CaseError
-from fem.results.result import CASE_FILE, read_summary
+from fem.results.run_folder import RunFolder
 from validation.paper.introductory import introductory_case
 
 #: Results that are shown: key of the summary to its name, unit and format.
@@ -67,7 +66,8 @@ def find_introductory(directory: Path, program: str) -> IntroductoryRun | None:
 
 
 def _read(folder: Path, case: Case) -> IntroductoryRun | None:
-    summary = _summary_of(folder, case)
+    """Results of a run of the case by whatever program; None if there is none."""
+    summary = RunFolder(folder, case).of_case()
     if summary is None:
         return None
     return IntroductoryRun(
@@ -75,17 +75,6 @@ def _read(folder: Path, case: Case) -> IntroductoryRun | None:
         status=": ".join(filter(None, [summary["status"], summary.get("reason")])),
         program=str(summary.get("program_version", "unknown")),
     )
-
-
-def _summary_of(folder: Path, case: Case) -> dict[str, Any] | None:
-    """Read the summary of a run; None if there is none or it is of another case."""
-    try:
-        found = Case.from_toml(folder / CASE_FILE)
-        summary = read_summary(folder)
-    except (CaseError, ValueError):
-        return None
-    output = {f"output.{key}": value for key, value in case.to_dict()["output"].items()}
-    return summary if found.with_overrides(output) == case else None
 
 
 def _result(summary: dict[str, Any], key: str) -> tuple[str, str, str]:

@@ -6,10 +6,9 @@ import platform
 import subprocess
 from dataclasses import dataclass
 from datetime import datetime
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from fem.files.program_version import program_version
+from fem.files.program_version import ROOT, program_version, version_of
 
 #: Packages whose version decides numbers or pictures.
 PACKAGES = (
@@ -23,7 +22,6 @@ PACKAGES = (
     "pydantic",
     "jinja2",
 )
-ROOT = Path(__file__).parents[2]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +52,10 @@ def made_with() -> MadeWith:
         date=datetime.now().astimezone().strftime("%Y-%m-%d %H:%M UTC%z"),
         program=program_version(),
         commit=describe_commit(ROOT),
-        versions={"Python": platform.python_version(), **{p: _version(p) for p in PACKAGES}},
+        versions={
+            "Python": platform.python_version(),
+            **{p: version_of(p) or "not installed" for p in PACKAGES},
+        },
     )
 
 
@@ -84,10 +85,3 @@ def _git(root: Path, *arguments: str) -> str | None:
     except (OSError, subprocess.SubprocessError):
         return None
     return done.stdout.strip()
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "not installed"

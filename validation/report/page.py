@@ -22,7 +22,7 @@ from validation.report.parts import (
 )
 from validation.report.runs_found import programs_of_runs
 from validation.sensitivity.parameters import PARAMETERS, Parameter, first_key
-from validation.sweeps.study import STUDIES
+from validation.studies import STUDIES
 
 TEMPLATE = "report.html"
 #: The robustness study's table, which is kept with the sources.

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from fem.sweeps import StudyRun
 from validation.sensitivity.parameters import AND, PARAMETERS
-from validation.sweeps.study_runs import StudyRun
 
 RESULTS = (
     "T_max_C",

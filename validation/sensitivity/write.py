@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from fem.files.atomic import write_text
+from fem.sweeps import study_runs
 from validation.drawing.style import save
 from validation.sensitivity.table import sensitivity_table
 from validation.sensitivity.text import sensitivity_text
 from validation.sensitivity.tornado import draw
-from validation.sweeps.study import STUDIES
-from validation.sweeps.study_runs import study_runs
+from validation.studies import cases_of
 
-STUDY = STUDIES / "sensitivity.toml"
+STUDY = "sensitivity"
 
 
 def write_sensitivity(directory: Path) -> Path:
@@ -21,7 +21,7 @@ def write_sensitivity(directory: Path) -> Path:
     Runs that are missing in ``directory/runs`` are simulated there first.
     """
     directory = Path(directory)
-    table = sensitivity_table(study_runs(STUDY, directory))
+    table = sensitivity_table(study_runs(cases_of(STUDY), directory))
     write_text(directory / "sensitivity.csv", table.to_csv(index=False, lineterminator="\n"))
     save(draw(table), directory / "sensitivity.png")
     path = directory / "sensitivity.txt"

@@ -1,1 +1,16 @@
 """Study files of the paper's figures and tables."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from fem.sweeps.study import StudyCase, read_study
+
+STUDIES = Path(__file__).parent
+#: Case files that a study file may name as its base.
+BASES = {"introductory": STUDIES / "introductory.toml"}
+
+
+def cases_of(study: str) -> list[StudyCase]:
+    """Cases of one of the studies here, e.g. ``compounds``."""
+    return read_study(STUDIES / f"{study}.toml", BASES).cases()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from calibration.partition.simulation_store import Slide
@@ -32,7 +34,10 @@ class MadeUpStore:
         self.simulated = 0
         self.cases: list[Case] = []
 
-    def slide(self, case: Case, label: str) -> Slide:
+    def slides(self, wanted: Sequence[tuple[Case, str]]) -> list[Slide]:
+        return [self.slide(case) for case, _ in wanted]
+
+    def slide(self, case: Case) -> Slide:
         self.simulated += 1
         self.cases.append(case)
         platen = case.loading.mean_pressure_N_per_mm2

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from dataclasses import replace
 
@@ -11,7 +10,7 @@ import pandas as pd
 import pytest
 
 from calibration.partition.fit import fit_partition
-from calibration.partition.simulation_store import MARKER, SimulationStore
+from calibration.partition.simulation_store import SimulationStoppedError, SimulationStore
 from contact import HeatPartition
 from fem import simulate
 from fem.case.case import Case
@@ -42,7 +41,7 @@ def made_up_slide(case, platen, velocity=300.0):
         "loading.velocity_mm_per_s": velocity,
         "heat.partition": {"law": "power", "pressure": case.heat.partition.pressure},
     }
-    return MadeUpStore().slide(case.with_overrides(keys), "")
+    return MadeUpStore().slide(case.with_overrides(keys))
 
 
 def peaks(case, conditions, column="mean_pressure_N_per_mm2"):
@@ -163,8 +162,8 @@ def test_the_budget_of_simulations_is_kept_and_an_unconfirmed_correction_said():
     class Fickle(MadeUpStore):
         """Answers a power law with rises that no prediction expects."""
 
-        def slide(self, case, label):
-            slide = super().slide(case, label)
+        def slide(self, case):
+            slide = super().slide(case)
             if case.block.rigid or case.heat.partition.law == "constant":
                 return slide
             return replace(slide, T=slide.T + 2.0 * len(self.cases))
@@ -213,31 +212,43 @@ def test_second_call_makes_no_simulation(tmp_path):
         }
         for p in PRESSURES
     ]
-    first = fit_partition(pd.DataFrame(rows), case, SimulationStore(tmp_path))
+    first = fit_partition(pd.DataFrame(rows), case, SimulationStore(tmp_path, 1))
     check_recovered(first.result, 1e-2)
     assert first.simulated >= 9
-    again = fit_partition(pd.DataFrame(rows), case, SimulationStore(tmp_path))
+    again = fit_partition(pd.DataFrame(rows), case, SimulationStore(tmp_path, 1))
     assert again.simulated == 0
     assert again.result.values == first.result.values
 
 
-def test_a_kept_simulation_counts_only_when_complete_and_of_this_program(tmp_path):
-    case = case_of(rigid=True, distance_mm=1.0)
-    store = SimulationStore(tmp_path)
-    fresh = store.slide(case, "")
-    marker = tmp_path / case.hash()[:16] / MARKER
-    content = json.loads(marker.read_text())
-    for damage in ("", "{", json.dumps({**content, "version": "0.0.1"}), None):
-        store = SimulationStore(tmp_path)
-        kept = store.slide(case, "")
-        assert store.simulated == 0
-        assert np.array_equal(kept.T, fresh.T)
-        if damage is None:
-            marker.unlink()
-        else:
-            marker.write_text(damage)
-        store.slide(case, "")
-        assert store.simulated == 1
+def test_simulations_side_by_side_and_kept_ones_are_the_same_numbers(tmp_path):
+    cases = [
+        case_of(rigid=True, distance_mm=1.0).with_overrides({"loading.velocity_mm_per_s": v})
+        for v in (300.0, 50.0, 300.0)
+    ]
+    said = []
+    store = SimulationStore(tmp_path / "two", 2, said.append)
+    fresh = store.slides([(case, f"case {k}") for k, case in enumerate(cases)])
+    # The first and the last are the same.
+    assert store.simulated == len(said) == 2
+    for other in (store, SimulationStore(tmp_path / "one", 1)):
+        again = other.slides([(case, "") for case in cases])
+        for one, two in zip(fresh, again, strict=True):
+            assert np.array_equal(one.T, two.T)
+            assert one.mean_contact_pressure == two.mean_contact_pressure
+    assert store.simulated == 2
+    (tmp_path / "two" / cases[1].hash()[:16] / "summary.json").write_text("{")
+    store.slides([(case, "") for case in cases])
+    assert store.simulated == 3
+
+
+def test_a_simulation_that_does_not_get_to_its_end_is_named(tmp_path):
+    keys = {"block.mesh": "coarse", "solver.newton_iterations_max": 1, "solver.step_mm_min": 0.02}
+    hopeless = case_of(distance_mm=1.0).with_overrides(keys)
+    for _ in range(2):
+        store = SimulationStore(tmp_path, 1)
+        with pytest.raises(SimulationStoppedError, match="slow slide is not converged: .*step"):
+            store.slides([(hopeless, "slow slide")])
+    assert store.simulated == 0
 
 
 @pytest.mark.slow
@@ -252,14 +263,14 @@ def test_law_comes_back_from_simulated_blocks(tmp_path):
             {"mean_pressure_N_per_mm2": p, "v_mm_per_s": 300.0, "T_max_C": summary["T_max_C"]}
         )
     table = pd.DataFrame(rows)
-    exact = fit_partition(table, case, SimulationStore(tmp_path))
+    exact = fit_partition(table, case, SimulationStore(tmp_path, 1))
     check_recovered(exact.result, 1e-2)
     assert exact.discrete["simulations"].max() <= 6
-    assert fit_partition(table, case, SimulationStore(tmp_path)).simulated == 0
+    assert fit_partition(table, case, SimulationStore(tmp_path, 1)).simulated == 0
 
     noise = np.random.default_rng(3).normal(0.0, 0.5, len(table))
     noisy = table.assign(T_max_C=table["T_max_C"] + noise, sigma_K=0.5)
-    found = fit_partition(noisy, case, SimulationStore(tmp_path))
+    found = fit_partition(noisy, case, SimulationStore(tmp_path, 1))
     assert found.discrete["simulations"].max() <= 6
     for name, (low, high) in found.result.interval().items():
         assert low < getattr(TRUE, name) < high

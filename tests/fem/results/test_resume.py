@@ -7,10 +7,8 @@ import shutil
 import numpy as np
 import pytest
 
-import fem.results.checkpoint
 from fem import Case, simulate
 from fem.results.checkpoint import CHECKPOINT_FILE, CheckpointError
-from fem.results.resume import resumable
 
 SMALL = {"cells_x": 24, "cells_y": 8, "smallest_x_mm": 0.4, "smallest_y_mm": 0.3}
 #: What depends on the machine's mood.
@@ -255,59 +253,6 @@ def test_the_matrix_of_the_heat_does_not_depend_on_the_steps_before():
     np.testing.assert_array_equal(
         warm._factor(at_rest, dt).factor.solve(rhs), cold._factor(at_rest, dt).factor.solve(rhs)
     )
-
-
-# -- what a folder offers --------------------------------------------------------------------------
-
-
-def test_a_folder_offers_nothing_a_checkpoint_or_the_finished_run(tmp_path):
-    case, folder = CASES["rigid"], tmp_path / "run"
-    assert resumable(folder, case) == "nothing"
-    result = simulate(case, checkpoint=folder / CHECKPOINT_FILE)
-    assert resumable(folder, case) == "checkpoint"
-    result.write(folder)
-    assert resumable(folder, case) == "checkpoint"
-    (folder / CHECKPOINT_FILE).unlink()
-    assert resumable(folder, case) == "finished"
-    with pytest.raises(CheckpointError, match=r"case\.toml: loading\.distance_mm: found 6\.0"):
-        resumable(folder, case.with_overrides({"loading.distance_mm": 7.0}))
-    (folder / "summary.json").write_text("{")
-    assert resumable(folder, case) == "nothing"
-
-
-def test_a_checkpoint_of_another_version_is_not_offered(tmp_path, monkeypatch):
-    case = CASES["rigid"]
-    simulate(case, checkpoint=tmp_path / CHECKPOINT_FILE)
-    monkeypatch.setattr(fem.results.checkpoint, "program_version", lambda: "9.9+abc")
-    with pytest.raises(CheckpointError, match="program version"):
-        resumable(tmp_path, case)
-
-
-def test_a_result_of_another_version_is_not_offered(tmp_path, monkeypatch):
-    case = CASES["rigid"]
-    simulate(case).write(tmp_path)
-    assert resumable(tmp_path, case) == "finished"
-    monkeypatch.setattr("fem.results.resume.program_version", lambda: "9.9+abc")
-    with pytest.raises(CheckpointError, match=r"summary\.json: program version"):
-        resumable(tmp_path, case)
-
-
-@pytest.mark.parametrize(
-    "name", ["history.csv", "surface.csv", "summary.csv", "run.log", "case.toml", "road_0001.vtu"]
-)
-def test_a_result_without_one_of_its_files_is_not_finished(name, tmp_path):
-    case = CASES["rigid"]
-    simulate(case).write(tmp_path)
-    (tmp_path / name).unlink()
-    assert resumable(tmp_path, case) == "nothing"
-
-
-@pytest.mark.parametrize("content", [b"", b"a,b\n1,2\n", b"\xff\xfe", b'"'])
-def test_a_result_with_a_damaged_table_is_not_finished(content, tmp_path):
-    case = CASES["rigid"]
-    simulate(case).write(tmp_path)
-    (tmp_path / "history.csv").write_bytes(content)
-    assert resumable(tmp_path, case) == "nothing"
 
 
 @pytest.mark.parametrize("edit", ["nan", "text", "shorter", "number"])

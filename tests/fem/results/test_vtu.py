@@ -8,7 +8,7 @@ import meshio
 import numpy as np
 import pytest
 
-from fem.results.vtu import read_fields, write_fields
+from fem.results.vtu import write_vtu
 from tests.made_up_result import made_up_result
 
 
@@ -16,7 +16,7 @@ from tests.made_up_result import made_up_result
 def folder(tmp_path_factory):
     path = tmp_path_factory.mktemp("fields")
     result = made_up_result(snapshots=3)
-    write_fields(path, result.geometry, result.snapshots)
+    write_vtu(path, result.geometry, result.snapshots)
     return path, result
 
 
@@ -59,18 +59,3 @@ def test_collection_names_existing_files_at_their_times(folder):
         sets = ElementTree.parse(path / f"{part}.pvd").getroot().findall("Collection/DataSet")
         assert [float(s.get("timestep")) for s in sets] == [s.time_s for s in result.snapshots]
         assert all((path / s.get("file")).is_file() for s in sets)
-
-
-def test_reading_gives_the_snapshots_back(folder):
-    path, result = folder
-    geometry, snapshots = read_fields(path)
-    assert snapshots == result.snapshots
-    assert np.array_equal(geometry.points, result.geometry.points)
-
-
-def test_a_damaged_field_file_is_named(folder, tmp_path):
-    path, _ = folder
-    for part in ("block", "road"):
-        (tmp_path / f"{part}_0000.vtu").write_bytes((path / f"{part}_0000.vtu").read_bytes()[:900])
-    with pytest.raises(ValueError, match=r"block_0000\.vtu is not a readable field file"):
-        read_fields(tmp_path)

@@ -17,18 +17,15 @@ from validation.claims.ledger import CLAIMS, judged
 from validation.claims.section_5_2 import HIGH, LOW, rigid_block
 from validation.claims.statements import CHANGES, case_keys
 from validation.paper.table4 import PAPER_N_PER_MM
-from validation.sweeps.study import STUDIES, read_study
+from validation.studies import BASES, cases_of
 
 
 @pytest.fixture
 def evidence(tmp_path, monkeypatch) -> Evidence:
     """Evidence whose studies are read from their files and answered with made-up runs."""
 
-    def runs(study, directory):
-        return [
-            replace(made_up_run(), study_case=case, result=made_up_result())
-            for case in read_study(study)
-        ]
+    def runs(cases, directory):
+        return [replace(made_up_run(), study_case=case, result=made_up_result()) for case in cases]
 
     monkeypatch.setattr("validation.claims.evidence.study_runs", runs)
     return Evidence(tmp_path)
@@ -53,7 +50,7 @@ def test_the_ends_of_table_4_are_in_the_study_with_every_change(evidence):
 
 
 def test_every_case_of_the_study_is_used():
-    cases = read_study(STUDIES / "claims.toml")
+    cases = cases_of("claims")
     tried = [
         *map(case_keys, CHANGES),
         *(rigid_block(law, p) for law in LAWS for p in (LOW, HIGH)),
@@ -92,7 +89,7 @@ def test_an_experiment_that_stopped_leaves_the_verdict(evidence):
 def test_a_real_run_is_judged_by_all_claims_that_need_only_it(tmp_path):
     keys = {"block.mesh": "coarse", "loading.distance_mm": 12.0}
     evidence = Evidence(tmp_path)
-    evidence.introductory = simulate(Case.from_toml(STUDIES / "introductory.toml", keys))
+    evidence.introductory = simulate(Case.from_toml(BASES["introductory"], keys))
     by_key = {claim.key: judged(claim, evidence) for claim in _of_the_example()}
     assert by_key["front_edge_curls"].holds
     assert by_key["pressure_concentration"].holds

@@ -12,7 +12,6 @@ from validation.convergence.onset import (
     pressed_platen,
     swept_runs,
 )
-from validation.sweeps.study import STUDIES
 
 #: Two rows of pressing, then three steps.
 HISTORY = pd.DataFrame({
@@ -53,4 +52,4 @@ def test_full_slip_is_the_coefficient_times_the_load_whatever_the_direction():
 
 def test_a_run_that_is_missing_is_named(tmp_path):
     with pytest.raises(ValueError, match="distance_3.0"):
-        swept_runs(STUDIES / "onset.toml", tmp_path)
+        swept_runs("onset", tmp_path)

@@ -3,6 +3,7 @@
 import pandas as pd
 import pytest
 
+from fem.sweeps.study import StudyCase
 from validation.convergence.onset import SweptRun
 from validation.convergence.table import (
     CONVERGENCE,
@@ -15,11 +16,11 @@ from validation.convergence.table import (
 )
 from validation.convergence.text import convergence_text, onset_differences, onset_text
 from validation.convergence.write import BEGIN, END, README, block, with_block
-from validation.sweeps.study import STUDIES, StudyCase, read_study
+from validation.studies import cases_of
 
 VARIED = {
-    CONVERGENCE: ("convergence.toml", convergence_table),
-    ONSET: ("onset.toml", onset_table),
+    CONVERGENCE: ("convergence", convergence_table),
+    ONSET: ("onset", onset_table),
 }
 
 
@@ -42,7 +43,7 @@ def made_up(case: StudyCase, **summary: object) -> SweptRun:
 
 
 def made_up_table(study: str, make, changes=None) -> pd.DataFrame:
-    cases = read_study(STUDIES / study)
+    cases = cases_of(study)
     return make([made_up(case, **(changes or {}).get(k, {})) for k, case in enumerate(cases)])
 
 
@@ -68,7 +69,7 @@ def test_a_readme_without_its_markers_is_refused():
 
 
 def test_both_distances_of_the_damping_are_scaled_alike():
-    cases = read_study(STUDIES / "convergence.toml")
+    cases = cases_of("convergence")
     lone = {"solver.edge_viscous_distance_mm": 0.5}
     case = StudyCase(name="lone", overrides=lone, case=cases[0].case.with_overrides(lone))
     with pytest.raises(ValueError, match=r"block times 1, of its edge times 0\.1"):
@@ -76,7 +77,7 @@ def test_both_distances_of_the_damping_are_scaled_alike():
 
 
 def test_differences_are_from_the_default_of_the_mesh_and_between_meshes():
-    table = made_up_table("convergence.toml", convergence_table)
+    table = made_up_table("convergence", convergence_table)
     table[["T_max_C", "A_T_K_mm"]] = [45.0, 100.0]
     fine = table["mesh"] == "fine"
     table.loc[fine, "A_T_K_mm"] = 110.0
@@ -90,7 +91,7 @@ def test_differences_are_from_the_default_of_the_mesh_and_between_meshes():
 
 
 def test_scatter_is_half_the_range_and_leaves_out_what_stopped():
-    table = made_up_table("convergence.toml", convergence_table)
+    table = made_up_table("convergence", convergence_table)
     coarse = (table["mesh"] == "coarse") & (table["memory_mm"] == 0.3)
     table.loc[:, "A_T_K_mm"] = 100.0
     table.loc[coarse & (table["steps_scale"] == 0.5), "A_T_K_mm"] = 104.0
@@ -105,7 +106,7 @@ def test_scatter_is_half_the_range_and_leaves_out_what_stopped():
 
 
 def test_the_onset_is_compared_with_the_least_damping_in_the_shortest_steps():
-    table = made_up_table("onset.toml", onset_table)
+    table = made_up_table("onset", onset_table)
     case = slice(0, 3)  # default, short steps, limit, limit in half its steps
     table.loc[case, FORCES[2]] = [1.0, 1.1, 1.2, 1.25]
     table.loc[case, "full_slip_N_per_mm"] = 5.0
@@ -121,7 +122,7 @@ def test_the_onset_is_compared_with_the_least_damping_in_the_shortest_steps():
 
 
 def test_cases_of_the_onset_are_named_by_what_sets_them_apart():
-    names = onset_differences(made_up_table("onset.toml", onset_table))["case"].tolist()
+    names = onset_differences(made_up_table("onset", onset_table))["case"].tolist()
     assert len(set(names)) == len(names) == 10
     assert names[0] == "introductory example"
     assert {"Coulomb, 0.6", "6 mm high", "50 mm/s", "yeoh-bars-series-2"} <= set(names)

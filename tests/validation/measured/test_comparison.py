@@ -13,6 +13,7 @@ from calibration.data.errors import DataError
 from fem.case.case import Case
 from fem.case.errors import CaseError
 from fem.results.result import Result
+from fem.sweeps.runs import StudyRun
 from tests.made_up_result import made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
@@ -22,7 +23,6 @@ from validation.measured.comparison_figures import draw_comparison, draw_profile
 from validation.measured.matching import matched, matching
 from validation.measured.measurements import read_measurements
 from validation.paper import fig11, fig12
-from validation.sweeps.study_runs import StudyRun
 
 ROOT = Path(__file__).parents[3]
 YEOH, VDW = "yeoh-bars-series-1-load", "van-der-waals-bars-series-1"

@@ -79,7 +79,7 @@ def test_figure_that_could_not_be_made_is_tried_again(tmp_path, making):
 
 
 def test_every_source_of_validation_and_calibration_counts():
-    names = {path.name for folder in module._FOLDERS for path in module._sources(folder)}
+    names = {path.name for path in module._sources()}
     assert {"fig9.py", "compounds.toml", "treloar1944.csv", "stress_models.py"} <= names
 
 

@@ -10,13 +10,13 @@ import pytest
 from calibration.conductance.fit import fit_conductance, synthetic_heating_record
 from calibration.conductance.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_dumbbell_cycles
+from fem.sweeps.runs import StudyRun
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.paper import fig2, fig3, fig4, fig6, fig9, fig10, fig11, fig12
 from validation.paper.figures import make_figure
 from validation.paper.stress_panels import chosen_cycle, set_table
-from validation.sweeps.study_runs import StudyRun
 
 
 @pytest.fixture(scope="module")

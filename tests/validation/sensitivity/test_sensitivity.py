@@ -9,6 +9,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fem.sweeps.runs import StudyRun
+from fem.sweeps.study import StudyCase
 from tests.validation.checks import assert_nothing_overlaps
 from tests.validation.sensitivity.made_up_study import made_up_study
 from validation.sensitivity import write
@@ -16,8 +18,7 @@ from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS
 from validation.sensitivity.table import DIFFERENCES, sensitivity_table
 from validation.sensitivity.text import sensitivity_text
 from validation.sensitivity.tornado import PANELS, by_influence, draw, limit, signed
-from validation.sweeps.study import StudyCase, read_study
-from validation.sweeps.study_runs import StudyRun
+from validation.studies import cases_of
 
 STOPPED = {"status": "not converged", "reason": "the step became too short", "T_max_C": 31.0}
 CHANGES = {
@@ -41,7 +42,7 @@ def row(table: pd.DataFrame, parameter: str, to: str) -> pd.Series:
 
 
 def test_the_study_changes_one_thing_at_a_time_and_every_change_is_explained():
-    cases = read_study(write.STUDY)
+    cases = cases_of(write.STUDY)
     assert [case.overrides for case in cases].count({}) == 1
     changed = {next(iter(case.overrides)) for case in cases if case.overrides}
     assert changed == set(PARAMETERS)
@@ -51,7 +52,7 @@ def test_the_study_changes_one_thing_at_a_time_and_every_change_is_explained():
 
 
 def test_the_base_is_the_papers_introductory_example():
-    base = next(case for case in read_study(write.STUDY) if not case.overrides).case
+    base = next(case for case in cases_of(write.STUDY) if not case.overrides).case
     assert (base.loading.velocity_mm_per_s, base.loading.distance_mm) == (300.0, 120.0)
     assert (base.loading.mean_pressure_N_per_mm2, base.friction.law) == (0.25, "huemer")
 
@@ -64,7 +65,7 @@ def test_what_the_solver_only_needs_is_told_from_what_the_paper_leaves_open():
 
 
 def test_folders_of_the_runs_have_short_names():
-    assert max(len(case.name) for case in read_study(write.STUDY)) <= 40
+    assert max(len(case.name) for case in cases_of(write.STUDY)) <= 40
 
 
 def test_differences_are_from_the_base_in_kelvin_and_per_cent(table):

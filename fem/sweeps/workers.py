@@ -12,8 +12,8 @@ from contextlib import contextmanager
 from typing import Any
 
 from fem.case.errors import CaseError
-from validation.sweeps.local_pool import LocalPool, local_pool
-from validation.sweeps.sweep_case import FAILED, CaseOutcome, SweepTask, run_task
+from fem.sweeps.case import FAILED, CaseOutcome, SweepTask, run_task
+from fem.sweeps.local_pool import LocalPool, local_pool
 
 #: How often a sweep looks for finished cases [s].
 _LOOK_S = 0.1

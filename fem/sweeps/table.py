@@ -13,12 +13,13 @@ from fem.files import spreadsheet
 from fem.files.atomic import write_text
 from fem.results.columns import SUMMARY
 from fem.results.result import SUMMARY_CSV, joined
-from validation.sweeps.study import StudyCase
-from validation.sweeps.sweep_case import CaseOutcome, SweepTask
+from fem.sweeps.case import CaseOutcome, SweepTask
+from fem.sweeps.study import StudyCase
 
 TIMINGS_CSV = "timings.csv"
 #: Differ from run to run; they stand in a table of their own so that the results can be compared.
 _TIMES = ("wall_s", "solver_s")
+_OF_THE_CASE = ("wall_s", "cpu_s")
 _BEFORE = ("case", "status", "reason", "advice")
 _AFTER = ("case_hash", "program_version")
 
@@ -57,6 +58,17 @@ class SweepTable:
         solver_s = summary.get("solver_s", "")
         self.times[task.name] = {"case": task.name, **outcome.timing, "solver_s": solver_s}
 
+    def earlier_times(self) -> dict[str, dict[str, Any]]:
+        """Times by case that an earlier sweep wrote; none where there is no such table."""
+        try:
+            with (self.directory / TIMINGS_CSV).open(newline="", encoding="utf-8") as file:
+                return {
+                    row["case"]: {key: row[key] for key in _OF_THE_CASE}
+                    for row in csv.DictReader(file)
+                }
+        except (OSError, ValueError, KeyError, csv.Error):
+            return {}
+
     def write(self) -> None:
         """Write both tables with the cases that have finished so far."""
         found = dict.fromkeys(key for row in self.rows.values() for key in row)
@@ -65,7 +77,7 @@ class SweepTable:
         others = [key for key in found if key not in first and key not in _AFTER]
         columns = [*first, *others, *_AFTER]
         self._write(SUMMARY_CSV, columns, self.rows)
-        self._write(TIMINGS_CSV, ["case", "wall_s", "cpu_s", "solver_s"], self.times)
+        self._write(TIMINGS_CSV, ["case", *_OF_THE_CASE, "solver_s"], self.times)
 
     def _write(self, name: str, columns: list[str], rows: Mapping[str, Mapping[str, Any]]) -> None:
         text = io.StringIO()

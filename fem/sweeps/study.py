@@ -1,9 +1,9 @@
 """Study files: a base case and a grid of keys, and the cases they stand for.
 
-A study file is TOML: ``base = "case.toml"`` (or ``"introductory"``, the paper's example), a table
-``[grid]`` of dotted case keys to lists (the full product is run) and optionally tables ``[[case]]``
-of dotted keys to single values, each combined with the whole grid. ``[names]`` may give short names
-to long keys for the folders.
+A study file is TOML: ``base = "case.toml"`` (or a name that the caller knows a case file of), a
+table ``[grid]`` of dotted case keys to lists (the full product is run) and optionally tables
+``[[case]]`` of dotted keys to single values, each combined with the whole grid. ``[names]`` may
+give short names to long keys for the folders.
 """
 
 from __future__ import annotations
@@ -23,10 +23,6 @@ from fem.case.case import Case
 from fem.case.errors import CaseError, describe, suggestion
 from fem.case.reading import read_toml
 
-#: The study files of the paper's figures.
-STUDIES = Path(__file__).parents[1] / "studies"
-#: Stands for the paper's introductory example where a study names its base case.
-INTRODUCTORY = "introductory"
 _LONGEST_NAME = 120
 _KEYS = ("base", "grid", "case", "names")
 #: Case keys whose value names a file.
@@ -52,44 +48,21 @@ class StudyCase:
     case: Case
 
 
-def read_study(path: str | Path) -> list[StudyCase]:
-    """Read a study file into its cases, in the order of the grid.
-
-    Raises
-    ------
-    CaseError
-        With file, key, what was found and what was expected, in one line.
-    """
-    study = _read_tables(Path(path))
-    overrides = [study.combination(number) for number in range(study.number)]
-    if _has_twins(overrides):
-        _refuse(study.path, "grid", "the same combination twice", "different values")
-    cases = [
-        StudyCase(
-            name=name, overrides=values, case=Case.from_toml(study.base, _from_here(study, values))
-        )
-        for name, values in zip(_folder_names(overrides, study.names), overrides, strict=True)
-    ]
-    return cases
-
-
-def number_of_cases(path: str | Path) -> int:
-    """How many cases a study file stands for, without making them."""
-    return _read_tables(Path(path)).number
-
-
-def some_cases(path: str | Path, most: int) -> list[Case]:
-    """Some cases of a study file, evenly spread over all of them."""
-    study = _read_tables(Path(path))
-    count = min(most, study.number)
-    chosen = (k * (study.number - 1) // max(1, count - 1) for k in range(count))
-    overrides = (_from_here(study, study.combination(number)) for number in chosen)
-    return [Case.from_toml(study.base, values) for values in overrides]
-
-
 @dataclass(frozen=True, kw_only=True)
-class _Study:
-    """What a study file says."""
+class Study:
+    """What a study file says.
+
+    Attributes
+    ----------
+    path, base : Path
+        The file, and that of its base case.
+    grid : dict
+        Dotted case keys to their values.
+    extra : list of dict
+        Dotted keys to single values; at least one, which may be empty.
+    names : dict
+        Dotted keys to short names.
+    """
 
     path: Path
     base: Path
@@ -99,10 +72,32 @@ class _Study:
 
     @property
     def number(self) -> int:
-        """How many combinations there are."""
+        """How many cases it stands for."""
         return len(self.extra) * math.prod(len(values) for values in self.grid.values())
 
-    def combination(self, number: int) -> dict[str, Any]:
+    def cases(self) -> list[StudyCase]:
+        """All cases, in the order of the grid.
+
+        Raises
+        ------
+        CaseError
+            With file, key, what was found and what was expected, in one line.
+        """
+        overrides = [self._combination(number) for number in range(self.number)]
+        if _has_twins(overrides):
+            _refuse(self.path, "grid", "the same combination twice", "different values")
+        return [
+            StudyCase(name=name, overrides=values, case=self._case(values))
+            for name, values in zip(_folder_names(overrides, self.names), overrides, strict=True)
+        ]
+
+    def some_cases(self, most: int) -> list[Case]:
+        """Some cases, evenly spread over all of them."""
+        count = min(most, self.number)
+        chosen = (k * (self.number - 1) // max(1, count - 1) for k in range(count))
+        return [self._case(self._combination(number)) for number in chosen]
+
+    def _combination(self, number: int) -> dict[str, Any]:
         """One of them; the last key of the grid changes first, the extra tables last."""
         chosen = {}
         for key, values in reversed(self.grid.items()):
@@ -110,8 +105,33 @@ class _Study:
             chosen[key] = values[place]
         return {key: chosen[key] for key in self.grid} | self.extra[number]
 
+    def _case(self, overrides: Mapping[str, Any]) -> Case:
+        """The case of a combination; files that the study names are looked for beside it."""
+        beside = {
+            key: str(self.path.parent / value)
+            if isinstance(value, str) and key.split(".")[-1] in _FILE_KEYS
+            else value
+            for key, value in overrides.items()
+        }
+        return Case.from_toml(self.base, beside)
 
-def _read_tables(path: Path) -> _Study:
+
+def read_study(path: str | Path, bases: Mapping[str, Path] | None = None) -> Study:
+    """Read a study file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The TOML file.
+    bases : mapping, optional
+        Case files that a study may name by a word, e.g. ``introductory``.
+
+    Raises
+    ------
+    CaseError
+        With file, key, what was found and what was expected, in one line.
+    """
+    path = Path(path)
     tables = read_toml(path)
     for key in tables:
         if key not in _KEYS:
@@ -131,7 +151,8 @@ def _read_tables(path: Path) -> _Study:
     extra = [_flat(table) for table in extra]
     keys = list(dict.fromkeys([*grid, *itertools.chain(*extra)]))
     names = _short_names(path, tables.get("names", {}), keys)
-    return _Study(path=path, base=_base_path(path, base), grid=grid, extra=extra, names=names)
+    known = dict(bases or {}).get(base, path.parent / base)
+    return Study(path=path, base=known, grid=grid, extra=extra, names=names)
 
 
 def _short_names(path: Path, table: Any, keys: list[str]) -> dict[str, str]:
@@ -159,20 +180,6 @@ def _comparable(value: Any) -> Any:
     if isinstance(value, list):
         return [_comparable(item) for item in value]
     return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
-
-
-def _from_here(study: _Study, overrides: Mapping[str, Any]) -> dict[str, Any]:
-    """Overrides in which the files that the study names are looked for beside it."""
-    return {
-        key: str(study.path.parent / value)
-        if isinstance(value, str) and key.split(".")[-1] in _FILE_KEYS
-        else value
-        for key, value in overrides.items()
-    }
-
-
-def _base_path(study: Path, base: str) -> Path:
-    return STUDIES / "introductory.toml" if base == INTRODUCTORY else study.parent / base
 
 
 def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

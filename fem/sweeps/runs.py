@@ -1,9 +1,9 @@
-"""The runs of a study: read where they are finished, simulated side by side where they are not."""
+"""Runs of many cases: read where they are finished, simulated side by side where they are not."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,12 +12,12 @@ import pandas as pd
 
 from fem.case.case import Case
 from fem.case.errors import CaseError
-from fem.files.program_version import program_version
-from fem.results.result import CASE_FILE, Result, missing_files, read_summary
-from validation.sweeps.study import StudyCase, read_study
-from validation.sweeps.sweep_case import FAILED, FINAL, SweepTask, forget
-from validation.sweeps.sweep_progress import SweepBar, SweepProgress
-from validation.sweeps.sweep_workers import executor, number_of_workers
+from fem.results.result import Result
+from fem.results.run_folder import RunFolder
+from fem.sweeps.case import FAILED, RUNS_FOLDER, SweepTask
+from fem.sweeps.progress import SweepBar, SweepProgress
+from fem.sweeps.study import StudyCase
+from fem.sweeps.workers import executor, number_of_workers
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +47,7 @@ class StudyError(RuntimeError):
     """A run of a study could not be made (an error, not a lack of convergence)."""
 
 
-def study_runs(study: str | Path, directory: str | Path) -> list[StudyRun]:
+def study_runs(cases: Sequence[StudyCase], directory: str | Path) -> list[StudyRun]:
     """Finished runs of a study in ``DIR/runs/<case>``; what is missing is simulated there first.
 
     A sweep leaves its runs in the same place, so that figures find them. Missing runs are made
@@ -58,9 +58,8 @@ def study_runs(study: str | Path, directory: str | Path) -> list[StudyRun]:
     StudyError
         If a run raised an error; those that finished before it are kept.
     """
-    cases = read_study(study)
-    runs = Path(directory).absolute() / "runs"
-    simulate_missing([(runs / study_case.name, study_case.case) for study_case in cases])
+    runs = Path(directory).absolute() / RUNS_FOLDER
+    simulate_missing({runs / study_case.name: study_case.case for study_case in cases})
     return [StudyRun(study_case=c, result=read_run(runs / c.name)) for c in cases]
 
 
@@ -83,8 +82,19 @@ def read_run(folder: Path) -> Result:
         ) from None
 
 
-def simulate_missing(wanted: Sequence[tuple[Path, Case]]) -> None:
+def simulate_missing(
+    wanted: Mapping[Path, Case], *, workers: int | None = None, quiet: bool = False
+) -> None:
     """Simulate the cases whose folders do not hold their runs, without drawing them.
+
+    Parameters
+    ----------
+    wanted : mapping
+        Absolute folders to what is to be in them.
+    workers : int, optional
+        Number of local processes; by default one per core. With 1 all is done in this process.
+    quiet : bool
+        Show no bar on a terminal.
 
     Raises
     ------
@@ -92,22 +102,16 @@ def simulate_missing(wanted: Sequence[tuple[Path, Case]]) -> None:
         If a run raised an error.
     """
     waiting = [
-        SweepTask(
-            name=folder.name,
-            case=case.with_overrides({"output.figures": False}),
-            folder=str(folder),
-            version=program_version(),
-        )
-        for folder, case in wanted
-        if not holds(folder, case)
+        SweepTask(name=folder.name, case=case, folder=str(folder))
+        for folder, case in wanted.items()
+        if RunFolder(folder, case).finished() is None
     ]
     if not waiting:
         return
     counts: Counter[str] = Counter()
-    workers = min(number_of_workers(None, None), len(waiting))
-    with executor(workers=workers, scheduler=None) as execute, SweepBar() as bar:
+    size = min(number_of_workers(workers, None), len(waiting))
+    with executor(workers=size, scheduler=None) as execute, SweepBar() as bar:
         for task in waiting:
-            forget(task, checkpoint=False)
             Path(task.folder).parent.mkdir(parents=True, exist_ok=True)
         for outcome in execute(waiting):
             if outcome is not None:
@@ -115,23 +119,8 @@ def simulate_missing(wanted: Sequence[tuple[Path, Case]]) -> None:
                 if outcome.summary["status"] == FAILED:
                     raise StudyError(f"{outcome.name}: {outcome.summary['reason']}")
             done = counts.total()
-            bar(SweepProgress(cases=len(waiting), done=done, earlier=0, status=dict(counts)))
-
-
-def holds(folder: Path, case: Case) -> bool:
-    """Whether a folder holds the finished run of a case by this program, with fields."""
-    try:
-        summary = read_summary(folder)
-        found = Case.from_toml(folder / CASE_FILE)
-        complete = found.output.vtu and not missing_files(folder, found)
-    except (CaseError, ValueError):
-        # Written by a version with other keys, or damaged: it has to be run again.
-        return False
-    if summary["status"] not in FINAL or summary.get("program_version") != program_version():
-        return False
-    return complete and found == case.with_overrides(
-        {f"output.{key}": value for key, value in found.to_dict()["output"].items()}
-    )
+            if not quiet:
+                bar(SweepProgress(cases=len(waiting), done=done, earlier=0, status=dict(counts)))
 
 
 def summary_table(runs: list[StudyRun]) -> pd.DataFrame:

@@ -1,46 +1,43 @@
 """One case of a sweep, from the task to its folder; this is what a worker process executes.
 
-A case is done when its folder holds the marker `sweep.json`, which names the case and the program
-that made it. The marker is removed before anything is written and written after everything else,
-so a worker may be killed at any moment. Meanwhile the folder has a checkpoint, from which another
-worker or a resumed sweep goes on, to the same result.
+A case is done when its folder holds the finished run, which `RunFolder` says. The file that says so
+is written last, so a worker may be killed at any moment. Meanwhile the folder has a checkpoint,
+from which another worker or a resumed sweep goes on, to the same result.
 """
 
 from __future__ import annotations
 
-import json
 import threading
 import time
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from fem import simulate
 from fem.case.case import Case
 from fem.files.atomic import write_text
 from fem.files.machine_faults import cause, one_line
 from fem.files.program_version import program_version
-from fem.results.checkpoint import CHECKPOINT_FILE, remove_checkpoint
-from fem.results.outcome import INTERRUPTED, NOT_CONVERGED, OK
+from fem.results.checkpoint import CHECKPOINT_FILE, CheckpointError
+from fem.results.outcome import INTERRUPTED
 from fem.results.output_folder import output_folder
-from fem.results.result import CASE_FILE, FIGURES_FOLDER, RUN_FILES, missing_files, read_summary
-from fem.results.resume import gone_on_with
+from fem.results.result import CASE_FILE, FIGURES_FOLDER, RUN_FILES, Result, read_summary
+from fem.results.run_folder import FINAL, RunFolder
+from fem.simulation import simulate
 
 RUNS_FOLDER = "runs"
-MARKER = "sweep.json"
 FAILURE_LOG = "failure.log"
 #: Status of a case that raised an error or whose worker died.
 FAILED = "failed"
-#: A repetition with the same program would end in the same way.
-FINAL = (OK, NOT_CONVERGED)
 
 # A worker of a foreign cluster may have several threads; matplotlib and the BLAS setting allow one.
 _ONE_AT_A_TIME = threading.Lock()
 #: How long to wait for another worker that has the folder of a case [s].
 _GIVEN_UP_S = 15.0
+#: Draws the figures of a run that is written into a folder, if they are not there.
+Draw = Callable[[Path], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,12 +54,20 @@ class SweepTask:
         Absolute path of the run's folder.
     version : str
         `program_version` of whoever asks for the run.
+    draw : callable, optional
+        Function of a module, which draws the figures of a folder.
     """
 
     name: str
     case: Case
     folder: str
-    version: str
+    version: str = field(default_factory=program_version)
+    draw: Draw | None = None
+
+    @property
+    def place(self) -> RunFolder:
+        """The run's folder."""
+        return RunFolder(Path(self.folder), self.case)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,43 +98,33 @@ def run_task(task: SweepTask) -> CaseOutcome:
         If the user interrupts a simulation in this process; then nothing is written.
     """
     with _ONE_AT_A_TIME:
-        # Finished since the sweep began, by a worker that died before it could say so.
-        if (earlier := finished_outcome(task)) is not None:
-            return earlier
         # Of this thread only: a worker also talks to its scheduler meanwhile.
         wall, cpu = time.perf_counter(), time.thread_time()
         try:
             with _own_folder(task):
+                # Finished since the sweep began, by a worker that died before it could say so.
+                if (earlier := earlier_outcome(task)) is not None:
+                    return CaseOutcome(name=task.name, summary=earlier)
                 summary = _simulated(task)
-                timing = {"wall_s": time.perf_counter() - wall, "cpu_s": time.thread_time() - cpu}
-                _mark(task, timing)
+                _draw(task)
         except Exception as error:
             return _failure(task, error)
+        timing = {"wall_s": time.perf_counter() - wall, "cpu_s": time.thread_time() - cpu}
         return CaseOutcome(name=task.name, summary=summary, timing=timing)
 
 
-def finished_outcome(task: SweepTask) -> CaseOutcome | None:
-    """Outcome of an earlier run of the same case by the same program, None if there is none."""
-    folder = Path(task.folder)
-    try:
-        marker = json.loads((folder / MARKER).read_text(encoding="utf-8"))
-        same = (marker["case_hash"], marker["version"]) == (task.case.hash(), task.version)
-        summary = read_summary(folder)
-        complete = not missing_files(folder, task.case)
-        timing = {str(key): float(value) for key, value in marker["timing"].items()}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        return None
-    if not (same and complete and summary["status"] in FINAL):
-        return None
-    return CaseOutcome(name=task.name, summary=summary, timing=timing)
+def earlier_outcome(task: SweepTask) -> dict[str, Any] | None:
+    """Summary of the finished run of the case by this program, its exports and figures written."""
+    summary = task.place.finished()
+    if summary is not None:
+        task.place.export()
+        _draw(task)
+    return summary
 
 
-def forget(task: SweepTask, *, marker: bool = True, checkpoint: bool = True) -> None:
-    """Remove the marker and the checkpoint of an earlier run."""
-    if marker:
-        (Path(task.folder) / MARKER).unlink(missing_ok=True)
-    if checkpoint:
-        remove_checkpoint(Path(task.folder) / CHECKPOINT_FILE)
+def _draw(task: SweepTask) -> None:
+    if task.draw is not None and task.case.output.figures:
+        task.draw(Path(task.folder))
 
 
 @contextmanager
@@ -153,33 +148,31 @@ def _own_folder(task: SweepTask) -> Iterator[None]:
 
 
 def _simulated(task: SweepTask) -> dict[str, Any]:
-    folder = Path(task.folder)
-    # Again, since a worker may have died on this case a minute ago.
-    forget(task, checkpoint=False)
-    result = gone_on_with(simulate, task.case, folder / CHECKPOINT_FILE)
+    place = task.place
+    place.forget(checkpoint=False)
+    result = _gone_on_with(task.case, place.checkpoint)
     if result.summary["status"] == INTERRUPTED:
         raise KeyboardInterrupt
-    result.write(folder)
-    if task.case.output.figures:
-        # matplotlib takes a second to load.
-        from validation.drawing.run_figures import write_run_figures
-
-        write_run_figures(folder)
-    (folder / FAILURE_LOG).unlink(missing_ok=True)
+    result.write(place.directory)
+    (place.directory / FAILURE_LOG).unlink(missing_ok=True)
     if result.summary["status"] in FINAL:
-        remove_checkpoint(folder / CHECKPOINT_FILE)
+        place.checkpoint.unlink(missing_ok=True)
     # As it will be read again by a resumed sweep: the two tables have to be the same.
-    return read_summary(folder)
+    return read_summary(place.directory)
+
+
+def _gone_on_with(case: Case, checkpoint: Path) -> Result:
+    """Result of a case, from its checkpoint on if there is one that can be used."""
+    try:
+        return simulate(case, checkpoint=checkpoint, resume=True)
+    except CheckpointError:
+        checkpoint.unlink()
+        return simulate(case, checkpoint=checkpoint)
 
 
 def _sees_the_sweep(folder: Path) -> bool:
     """Whether the folder of all runs, which was made before runs were asked for, is there."""
     return folder.parent.is_dir()
-
-
-def _mark(task: SweepTask, timing: dict[str, float]) -> None:
-    marker = {"case_hash": task.case.hash(), "version": task.version, "timing": timing}
-    write_text(Path(task.folder) / MARKER, json.dumps(marker, indent=2) + "\n")
 
 
 def _failure(task: SweepTask, error: Exception) -> CaseOutcome:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import importlib
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,11 +13,13 @@ import pytest
 import treadfem
 from fem import simulate
 from fem.case.errors import CaseError
+from fem.sweeps import case as sweep_case
+from fem.sweeps import workers as sweep_workers
+from fem.sweeps.progress import SweepBar, closing_line, time_left
+from fem.sweeps.sweep import SweepProgress, sweep
+from fem.sweeps.table import grid_values
 from tests.made_up_result import made_up_case, made_up_result
-from validation.sweeps import sweep_case, sweep_workers
-from validation.sweeps.sweep import SweepProgress, sweep
-from validation.sweeps.sweep_progress import SweepBar, closing_line, time_left
-from validation.sweeps.sweep_table import grid_values
+from validation.drawing import draw_missing
 
 VELOCITIES = (7.0, 50.0, 300.0)
 BASE = """
@@ -51,7 +55,7 @@ class StubSimulation:
         self.simulated.append(velocity)
         if velocity in self.faults:
             raise self.faults[velocity]
-        result = made_up_result(velocity_mm_per_s=velocity)
+        result = replace(made_up_result(), case=case)
         result.summary.update(T_max_C=20.0 + velocity / 10.0, wall_s=float(len(self.simulated)))
         if velocity in self.stops:
             result.summary.update(status="not converged", reason=self.stops[velocity])
@@ -101,7 +105,7 @@ def test_every_case_is_a_row_with_the_columns_of_the_grid_first(study, simulatio
 def test_every_case_has_the_folder_of_a_normal_run(study, simulation):
     study.write_text(STUDY.replace("[7.0, 50.0, 300.0]", "[300.0]"))
     (study.parent / "case.toml").write_text(BASE.replace("false", "true"))
-    run(study)
+    run(study, draw=draw_missing)
     folder = Path("out/runs") / rows()[0]["case"]
     tables = {"case.toml", "run.log", "history.csv", "surface.csv", "summary.json", "summary.csv"}
     assert tables | {"block.pvd", "road.pvd", "figures"} <= {p.name for p in folder.iterdir()}
@@ -139,7 +143,7 @@ def test_table_in_the_grid_is_one_entry_of_the_row(study, simulation):
 
 
 def test_key_without_a_value_in_a_case_is_empty():
-    from validation.sweeps.study import StudyCase
+    from fem.sweeps.study import StudyCase
 
     case = StudyCase(name="a", overrides={}, case=made_up_case())
     assert grid_values(case, ["friction.mu", "loading.distance_mm"]) == {
@@ -200,7 +204,6 @@ def test_worker_that_does_not_see_the_disk_is_a_failure_and_writes_nothing(tmp_p
         name="a",
         case=made_up_case(),
         folder=str(tmp_path / "elsewhere" / "runs" / "a"),
-        version=sweep_case.program_version(),
     )
     outcome = sweep_case.run_task(task)
     assert outcome.summary["status"] == "failed"
@@ -214,7 +217,7 @@ def test_worker_that_does_not_see_the_disk_is_a_failure_and_writes_nothing(tmp_p
 def test_resume_runs_only_what_is_missing_and_gives_the_same_table(study, simulation):
     run(study)
     whole = Path("out/summary.csv").read_bytes()
-    (Path("out/runs") / rows()[1]["case"] / "sweep.json").unlink()
+    (Path("out/runs") / rows()[1]["case"] / "summary.json").unlink()
     Path("out/summary.csv").unlink()
     simulation.simulated.clear()
     state = run(study, resume=True)
@@ -278,25 +281,15 @@ def test_resume_repeats_changed_cases_and_the_work_of_another_program(
     run(study, resume=True)
     assert simulation.simulated == list(VELOCITIES)
     simulation.simulated.clear()
-    monkeypatch.setattr("validation.sweeps.sweep.program_version", lambda: "9.9+new")
-    monkeypatch.setattr(sweep_case, "program_version", lambda: "9.9+new")
+    monkeypatch.setattr("fem.results.run_folder.program_version", lambda: "9.9+new")
     run(study, resume=True)
     assert simulation.simulated == list(VELOCITIES)
-
-
-@pytest.mark.parametrize("damage", ["", "{", "[]", "{}", '{"case_hash": 1, "version": 2}'])
-def test_damaged_marker_means_not_done(damage, study, simulation):
-    run(study)
-    simulation.simulated.clear()
-    (Path("out/runs") / rows()[0]["case"] / "sweep.json").write_text(damage)
-    run(study, resume=True)
-    assert simulation.simulated == [7.0]
 
 
 def test_leftovers_of_killed_workers_are_removed(study, simulation):
     run(study)
     name = rows()[0]["case"]
-    (Path("out/runs") / name / "sweep.json").unlink()
+    (Path("out/runs") / name / "summary.json").unlink()
     left = [Path(f"out/{place}/.unfinished-abc") for place in (".", "runs", f"runs/{name}")]
     other = Path("out/runs/.mine")
     for folder in (*left, other):
@@ -380,7 +373,9 @@ def test_large_study_is_begun_when_it_is_confirmed(answer, study, monkeypatch):
         return answer
 
     begun = []
-    monkeypatch.setattr("validation.sweeps.sweep._sweep", lambda cases, *_: begun.append(cases))
+    monkeypatch.setattr(
+        importlib.import_module("fem.sweeps.sweep"), "_sweep", lambda cases, *_: begun.append(cases)
+    )
     if answer:
         sweep(study, "out", confirm=confirm)
         assert len(begun[0]) == 1001

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from fem.results import run_folder
+from fem.results.run_folder import RunFolder
+from fem.sweeps import case as sweep_case
+from fem.sweeps import runs as module
+from fem.sweeps.runs import StudyError, study_runs, summary_table
+from fem.sweeps.study import read_study
 from tests.made_up_result import made_up_result
-from validation.sweeps import study_runs as module
-from validation.sweeps import sweep_case
-from validation.sweeps.study import read_study
-from validation.sweeps.study_runs import StudyError, holds, study_runs, summary_table
 
 
 @pytest.fixture
@@ -31,24 +33,22 @@ TWO = 'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0]'
 def test_finished_runs_are_read_and_changed_ones_simulated_again(write_study, tmp_path, simulated):
     path = write_study(TWO)
     for _ in range(2):
-        runs = study_runs(path, tmp_path / "out")
+        runs = study_runs(read_study(path).cases(), tmp_path / "out")
     assert simulated == [7.0, 50.0]
     assert [run["loading.velocity_mm_per_s"] for run in runs] == [7.0, 50.0]
     table = summary_table(runs)
     assert list(table.columns[:2]) == ["loading.velocity_mm_per_s", "status"]
     case_file = tmp_path / "out" / "runs" / "velocity_mm_per_s_50.0" / "case.toml"
     case_file.write_text(case_file.read_text().replace("height_mm = 8.0", "height_mm = 9.0"))
-    (case_file.parent / sweep_case.MARKER).unlink()
-    study_runs(path, tmp_path / "out")
+    study_runs(read_study(path).cases(), tmp_path / "out")
     assert simulated == [7.0, 50.0, 50.0]
 
 
 def test_runs_of_another_program_are_simulated_again(write_study, tmp_path, simulated, monkeypatch):
     path = write_study(TWO)
-    study_runs(path, tmp_path / "out")
-    for changed in (module, sweep_case):
-        monkeypatch.setattr(changed, "program_version", lambda: "0.0.9+new")
-    study_runs(path, tmp_path / "out")
+    study_runs(read_study(path).cases(), tmp_path / "out")
+    monkeypatch.setattr(run_folder, "program_version", lambda: "0.0.9+new")
+    study_runs(read_study(path).cases(), tmp_path / "out")
     assert simulated == [7.0, 50.0] * 2
 
 
@@ -63,25 +63,8 @@ def test_run_that_raises_an_error_is_said_and_the_finished_ones_are_kept(
     path = write_study(TWO)
     monkeypatch.setattr(sweep_case, "simulate", fails_at_50)
     with pytest.raises(StudyError, match=r"velocity_mm_per_s_50\.0: .*no such thing"):
-        study_runs(path, tmp_path / "out")
-    first, second = read_study(path)
-    assert holds(tmp_path / "out" / "runs" / first.name, first.case)
-    assert not holds(tmp_path / "out" / "runs" / second.name, second.case)
-
-
-def test_an_interrupted_run_is_not_taken_for_a_finished_one(tmp_path):
-    result = made_up_result()
-    result.summary["status"] = "interrupted"
-    result.write(tmp_path)
-    assert not holds(tmp_path, result.case)
-
-
-def test_a_run_of_a_version_with_other_keys_is_not_taken_for_this_case(tmp_path):
-    result = made_up_result()
-    result.write(tmp_path)
-    assert holds(tmp_path, result.case)
-    path = tmp_path / "case.toml"
-    path.write_text(path.read_text().replace("height_mm", "tallness_mm"))
-    assert not holds(tmp_path, result.case)
-    path.unlink()
-    assert not holds(tmp_path, result.case)
+        study_runs(read_study(path).cases(), tmp_path / "out")
+    first, second = read_study(path).cases()
+    runs = tmp_path / "out" / "runs"
+    assert RunFolder(runs / first.name, first.case).finished() is not None
+    assert RunFolder(runs / second.name, second.case).finished() is None

@@ -4,8 +4,8 @@ import pandas as pd
 import pytest
 
 from fem import simulate
-from validation.sweeps.robustness import FOUND, TABLE, VARIED, robustness_table
-from validation.sweeps.study import STUDIES, read_study
+from validation.convergence.robustness import FOUND, TABLE, VARIED, robustness_table
+from validation.studies import cases_of
 
 COARSE = {"block.mesh": "coarse"}
 #: (compound, pressure, law, mu): every compound and law once, all pressures twice.
@@ -21,7 +21,7 @@ SPREAD = [
 
 @pytest.fixture(scope="module")
 def study():
-    return read_study(STUDIES / "robustness.toml")
+    return cases_of("robustness")
 
 
 def test_the_study_is_the_full_product(study):

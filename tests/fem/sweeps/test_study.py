@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 
 from fem.case.errors import CaseError
+from fem.sweeps.study import read_study
+from fem.sweeps.sweep import size_of_study
 from validation.paper.introductory import introductory_case
-from validation.sweeps.size import size_of_study
-from validation.sweeps.study import STUDIES, number_of_cases, read_study, some_cases
+from validation.studies import BASES, cases_of
 
 
 def test_the_grid_is_the_full_product_in_the_order_of_the_file(write_study):
@@ -15,7 +16,7 @@ def test_the_grid_is_the_full_product_in_the_order_of_the_file(write_study):
         'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0]\n'
         'friction.law = ["huemer", "exponential"]'
     )
-    cases = read_study(path)
+    cases = read_study(path).cases()
     assert [case.overrides for case in cases] == [
         {"loading.velocity_mm_per_s": v, "friction.law": law}
         for v in (7.0, 50.0)
@@ -32,13 +33,13 @@ def test_each_extra_case_is_combined_with_the_grid(write_study):
         '[[case]]\n"block.height_mm" = 7.0\n[[case]]\n"block.height_mm" = 9.0\n'
         '"rubber.bulk_ratio" = 20.0'
     )
-    cases = read_study(path)
+    cases = read_study(path).cases()
     assert [c.case.block.height_mm for c in cases] == [7.0, 7.0, 9.0, 9.0]
     assert cases[-1].case.rubber.bulk_ratio == 20.0
 
 
 def test_a_study_without_grid_is_its_base_case(write_study):
-    (case,) = read_study(write_study('base = "case.toml"'))
+    (case,) = read_study(write_study('base = "case.toml"')).cases()
     assert case.name == "base"
 
 
@@ -67,15 +68,23 @@ def test_a_study_without_grid_is_its_base_case(write_study):
 )
 def test_a_wrong_study_is_refused_in_one_line(write_study, text, words):
     with pytest.raises(CaseError, match=words) as error:
-        read_study(write_study(text))
+        read_study(write_study(text)).cases()
     assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize("name, count", [("compounds", 6), ("velocities", 6), ("pressures", 36)])
 def test_studies_of_the_paper_resolve(name, count):
-    cases = read_study(STUDIES / f"{name}.toml")
+    cases = cases_of(name)
     assert len(cases) == count
     assert {case.case.loading.distance_mm for case in cases} == {120.0}
+
+
+def test_a_base_may_be_a_name_that_the_caller_knows(write_study):
+    path = write_study('base = "introductory"')
+    (case,) = read_study(path, BASES).cases()
+    assert case.case == introductory_case()
+    with pytest.raises(CaseError, match="introductory"):
+        read_study(path).cases()
 
 
 def test_the_base_of_the_studies_is_the_introductory_example():
@@ -92,7 +101,7 @@ def test_values_that_differ_only_in_replaced_characters_are_told_apart(write_stu
         'base = "case.toml"\n[grid]\n"rubber.parameters" = ["a b.toml", "a;b.toml"]\n'
         f'"block.mesh" = [{mesh}]'
     )
-    cases = read_study(path)
+    cases = read_study(path).cases()
     assert [case.case.rubber.bulk_ratio for case in cases] == [20.0, 30.0]
     assert len({case.name for case in cases}) == 2
 
@@ -102,7 +111,7 @@ def test_files_of_a_study_are_looked_for_beside_it(write_study, tmp_path, monkey
     path = write_study('base = "case.toml"\n[grid]\n"rubber.parameters" = ["mine.toml"]')
     (tmp_path / "elsewhere").mkdir()
     monkeypatch.chdir(tmp_path / "elsewhere")
-    (case,) = read_study(path)
+    (case,) = read_study(path).cases()
     assert case.case.rubber.bulk_ratio == 20.0
 
 
@@ -111,7 +120,7 @@ def test_no_name_of_a_case_is_hidden_an_option_or_a_formula(write_study):
         'base = "case.toml"\n[names]\n"block.height_mm" = "-=."\n[grid]\n'
         '"block.height_mm" = [7.0, 9.0]'
     )
-    assert [case.name for case in read_study(path)] == ["7.0", "9.0"]
+    assert [case.name for case in read_study(path).cases()] == ["7.0", "9.0"]
 
 
 def test_combinations_are_numbered_as_they_are_listed(write_study):
@@ -119,10 +128,11 @@ def test_combinations_are_numbered_as_they_are_listed(write_study):
         'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0, 300.0]\n'
         '"friction.law" = ["huemer", "exponential"]\n[[case]]\n[[case]]\n"block.height_mm" = 7.0'
     )
-    cases = read_study(path)
-    assert number_of_cases(path) == len(cases) == 12
-    assert some_cases(path, 100) == [case.case for case in cases]
-    assert some_cases(path, 3) == [cases[number].case for number in (0, 5, 11)]
+    study = read_study(path)
+    cases = study.cases()
+    assert study.number == len(cases) == 12
+    assert study.some_cases(100) == [case.case for case in cases]
+    assert study.some_cases(3) == [cases[number].case for number in (0, 5, 11)]
 
 
 def test_a_study_of_a_million_cases_is_counted_without_making_them(write_study):
@@ -131,5 +141,6 @@ def test_a_study_of_a_million_cases_is_counted_without_making_them(write_study):
         f'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [{values}]\n'
         f'"loading.distance_mm" = [{values}]'
     )
-    assert number_of_cases(path) == 10**6
-    assert size_of_study(path, 2).startswith("1000000 cases: about ")
+    study = read_study(path)
+    assert study.number == 10**6
+    assert size_of_study(study, 2).startswith("1000000 cases: about ")

@@ -40,7 +40,7 @@ import sys
 from multiprocessing.connection import Connection
 connection = Connection(int(sys.argv[1]))
 sys.path[:] = connection.recv()
-from validation.sweeps.local_pool import serve
+from fem.sweeps.local_pool import serve
 serve(connection)
 """
 
@@ -182,9 +182,13 @@ def serve(connection: Connection) -> None:
 
 
 def _receive(connection: Connection, tasks: SimpleQueue[Any]) -> None:
-    """Hand on what the parent sends; without it the work is for nobody, and the process ends."""
+    """Hand on what the parent sends; without it the work is for nobody, and the process ends.
+
+    It also ends over what cannot be read here (a function of a module that is not found), so that
+    the parent does not wait for ever.
+    """
     try:
         while True:
             tasks.put(connection.recv())
-    except (EOFError, OSError):
+    except Exception:
         os._exit(1)

@@ -1,6 +1,6 @@
 """The committed table of the robustness study (``make robustness`` repeats the study).
 
-``python -m validation.sweeps.robustness SUMMARY.csv`` takes from the summary of its sweep the
+``python -m validation.convergence.robustness SUMMARY.csv`` takes from the summary of its sweep the
 columns that tell how each case went, four digits each, and writes ``validation/robustness.csv``.
 """
 

@@ -6,15 +6,16 @@ import os
 import signal
 import subprocess
 import sys
+import types
 from pathlib import Path
 
 import pytest
 
+from fem.sweeps.local_pool import MOST_TRIES, WorkersError, local_pool
 from tests.machines import ENVIRONMENT, ROOT, write_inputs
-from validation.sweeps.local_pool import MOST_TRIES, WorkersError, local_pool
 
 SCRIPT = """
-from validation.sweeps.sweep import sweep
+from fem.sweeps.sweep import sweep
 state = sweep("study.toml", "out", workers=2)
 print(state.status)
 """
@@ -46,6 +47,15 @@ def test_results_come_with_their_tasks():
     with local_pool(doubled, 2) as pool:
         news = [n for n in pool.run([1, 2, 3]) if n is not None]
     assert sorted(news) == [(1, 2), (2, 4), (3, 6)]
+
+
+def test_function_that_no_worker_finds_is_not_waited_for(monkeypatch):
+    here_only = types.ModuleType("here_only")
+    monkeypatch.setitem(sys.modules, "here_only", here_only)
+    monkeypatch.setattr(doubled, "__module__", "here_only")
+    here_only.doubled = doubled
+    with local_pool(doubled, 1) as pool:
+        assert [n for n in pool.run([1]) if n is not None] == [(1, None)]
 
 
 def test_worker_that_is_killed_costs_its_task_only(tmp_path):
@@ -111,7 +121,7 @@ def test_worker_listens_to_no_port(folder):
 
 
 def test_sources_stay_free_of_dask_where_no_scheduler_is_asked_for():
-    words = "import sys, validation.sweeps.sweep; print('distributed' in sys.modules)"
+    words = "import sys, fem.sweeps.sweep; print('distributed' in sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", words], cwd=ROOT, capture_output=True, text=True, check=True
     )

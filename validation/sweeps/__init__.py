@@ -1,1 +1,0 @@
-"""Studies and sweeps: many cases, in parallel, resumable."""
