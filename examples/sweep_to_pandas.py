@@ -9,7 +9,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pandas as pd
 
-from validation.sweeps.sweep import sweep
+from fem.sweeps import sweep
 
 study, out = Path(__file__).with_name("velocities.toml"), Path("results/velocities")
 if __name__ == "__main__":  # the cases run in processes of their own, which read this file too

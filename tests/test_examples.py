@@ -26,7 +26,7 @@ def desk(tmp_path_factory) -> Path:
 @pytest.fixture
 def one_process(monkeypatch):
     """Sweeps in this process: starting others takes longer than their short cases."""
-    monkeypatch.setattr("validation.sweeps.sweep.number_of_workers", lambda *_: 1)
+    monkeypatch.setattr("fem.sweeps.workers.cores", lambda: 1)
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
