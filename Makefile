@@ -25,8 +25,8 @@ help:
 	@echo "make claims     the paper's statements against the simulation, one by one"
 	@echo "make sensitivity  what the paper leaves open, one parameter at a time"
 	@echo "make report     all of that in one HTML page, $(RESULTS)/report.html"
-	@echo "make robustness  108 cases from easy to extreme; rewrites validation/robustness.csv"
-	@echo "make convergence  to the limit of damping and steps; rewrites its tables and the README's block"
+	@echo "make robustness  108 cases from easy to extreme; rewrites validation/robustness.csv and docs/verification.md"
+	@echo "make convergence  to the limit of damping and steps; rewrites its tables and docs/verification.md"
 	@echo "make clean      remove results and caches (make distclean: .venv too)"
 
 $(READY): setup.cfg pyproject.toml constraints.txt
@@ -95,6 +95,7 @@ report: figures claims sensitivity
 robustness: $(READY)
 	$(BIN)/treadfem sweep validation/studies/robustness.toml -o $(RESULTS)/robustness --resume
 	$(BIN)/python -m validation.convergence.robustness $(RESULTS)/robustness/summary.csv
+	$(BIN)/python -m validation.convergence.write
 
 # A case that does not converge (exit code 3) is a row of the tables too.
 convergence: $(READY)

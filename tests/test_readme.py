@@ -1,4 +1,4 @@
-"""What the README tells a newcomer to type works."""
+"""What the README and the pages behind it tell a newcomer to type works."""
 
 from __future__ import annotations
 
@@ -13,20 +13,21 @@ import pytest
 
 import treadfem
 from fem.case.case import Case
+from fem.case.friction import LAWS
+from fem.case.rubber import CONSTANTS
+from tests.documents import PAGES, ROOT, TEXT
 
-ROOT = Path(__file__).parents[1]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
 LOADING = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300.0, "distance_mm": 1.0}
 
 
 def fenced(language: str) -> list[str]:
     """Fenced blocks of one language."""
-    return re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
+    return re.findall(rf"```{language}\n(.*?)```", TEXT, flags=re.DOTALL)
 
 
 def commands(program: str) -> list[list[str]]:
     """Words of every indented command line of a program, without redirections."""
-    lines = re.findall(rf"^    (?:\.venv/bin/)?{program} (.*)$", README, flags=re.MULTILINE)
+    lines = re.findall(rf"^    (?:\.venv/bin/)?{program} (.*)$", TEXT, flags=re.MULTILINE)
     return [shlex.split(line.split(" > ")[0], comments=True) for line in lines]
 
 
@@ -66,6 +67,20 @@ def test_python_example_runs(text, tmp_path, monkeypatch, capsys):
     assert (tmp_path / "results/short/summary.json").exists()
 
 
-@pytest.mark.parametrize("target", re.findall(r"\]\(([^)#:]+)\)", README))
-def test_link_leads_to_a_file(target):
-    assert (ROOT / target).exists()
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_to_files(page):
+    targets = re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8"))
+    assert [target for target in targets if not (page.parent / target).exists()] == []
+
+
+def test_every_page_is_linked_from_the_readme():
+    readme = PAGES[0].read_text(encoding="utf-8")
+    pages = {f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md")}
+    assert pages == {str(page.relative_to(ROOT)) for page in PAGES[1:]}
+    assert [page for page in sorted(pages) if f"]({page})" not in readme] == []
+
+
+def test_theory_names_every_model_and_law():
+    theory = (ROOT / "docs/theory.md").read_text(encoding="utf-8").casefold()
+    words = [name.replace("-", " ") for name in (*CONSTANTS, *LAWS)]
+    assert [word for word in words if word not in theory.replace("-", " ")] == []

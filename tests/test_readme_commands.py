@@ -1,4 +1,4 @@
-"""Every treadfem command of the README is run as it stands there, in a newcomer's folder.
+"""Every treadfem command of the README and its pages is run as it stands, in a newcomer's folder.
 
 The folder is filled in the order of the README: what one command writes the next one reads. Cases
 are cut short so that each takes seconds; the runs behind claims, sensitivity and figure 11 are made
@@ -25,10 +25,9 @@ from fem.case.case import Case
 from fem.results.result import Result
 from fem.sweeps import case as sweep_case
 from tests.calibration.test_readme_examples import examples as calibrate_examples
+from tests.documents import PAGES, ROOT, TEXT
 from tests.made_up_result import made_up_result
 
-ROOT = Path(__file__).parents[1]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
 EXAMPLES = (ROOT / "examples/README.md").read_text(encoding="utf-8")
 SHORT = {
     'mesh = "default"': "mesh = {cells_x = 20, cells_y = 8, "
@@ -52,8 +51,8 @@ WRITES = {
 
 
 def command_lines() -> list[str]:
-    """Every indented line of the README that calls treadfem, without its comment."""
-    lines = re.findall(r"^    (?:\.venv/bin/)?(treadfem .*)$", README, flags=re.MULTILINE)
+    """Every indented line that calls treadfem, without its comment."""
+    lines = re.findall(r"^    (?:\.venv/bin/)?(treadfem .*)$", TEXT, flags=re.MULTILINE)
     return [line.split("  #")[0].strip() for line in lines]
 
 
@@ -211,7 +210,7 @@ def test_test_that_covers_a_command_exists_and_has_a_command_to_cover(part):
 
 def test_every_calibrate_command_is_an_example_of_its_own_test():
     shown = [words_of(line)[1:] for line in command_lines() if words_of(line)[0] == "calibrate"]
-    assert shown == calibrate_examples("README.md")
+    assert shown == calibrate_examples(*PAGES)
 
 
 # -- on a cluster ----------------------------------------------------------------------------------
@@ -261,7 +260,7 @@ def started(words: list[str], folder: Path) -> Iterator[None]:
 def test_scheduler_workers_and_sweep_of_the_readme_work_together(shared, monkeypatch):
     pytest.importorskip("distributed", reason="dask.distributed is not installed (extra sweep)")
     port = free_port()
-    dask = re.findall(r"^    (dask .*)$", README, flags=re.MULTILINE)
+    dask = re.findall(r"^    (dask .*)$", TEXT, flags=re.MULTILINE)
     (sweep_line,) = [line for line in command_lines() if "--scheduler" in line]
     changes = {"8786": str(port), "//host": "//127.0.0.1", "/shared/": f"{shared}/",
                "--nworkers 16": "--nworkers 2"}  # fmt: skip
@@ -308,7 +307,7 @@ class SLURMCluster(LocalCluster):
 def test_slurm_script_of_the_readme_runs_a_sweep(shared):
     """With a stand-in for the batch system; everything else as it stands in the README."""
     pytest.importorskip("distributed", reason="dask.distributed is not installed (extra sweep)")
-    (script,) = re.findall(r"```py\n(.*?)```", README, flags=re.DOTALL)
+    (script,) = re.findall(r"```py\n(.*?)```", TEXT, flags=re.DOTALL)
     (shared / "dask_jobqueue.py").write_text(STAND_IN)
     (shared / "job.py").write_text(script.replace("/shared/", f"{shared}/"))
     subprocess.run(

@@ -1,4 +1,4 @@
-"""The calibrate commands of the README, run on made-up measurements under the names they use."""
+"""The calibrate commands of the documents, run on made-up measurements under the names they use."""
 
 from __future__ import annotations
 
@@ -17,15 +17,21 @@ from calibration.synthetic import synthetic_bar_cycles, synthetic_friction
 from contact import HuemerFriction
 from materials import WLF
 from tests.calibration.partition.made_up_slides import RIGID
+from tests.documents import PAGES, ROOT
 
-ROOT = Path(__file__).parents[2]
+CALIBRATION = ROOT / "calibration/README.md"
 
 
-def examples(readme):
-    """Words behind `treadfem calibrate` of every indented example of a README."""
-    text = (ROOT / readme).read_text(encoding="utf-8")
+def examples(*pages):
+    """Words behind `treadfem calibrate` of every indented example of some pages."""
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
     lines = re.findall(r"^    (?:\.venv/bin/)?treadfem calibrate (.*)$", text, flags=re.MULTILINE)
     return [shlex.split(line) for line in lines]
+
+
+def unique(examples):
+    """Each once, in order."""
+    return list(map(list, dict.fromkeys(map(tuple, examples))))
 
 
 def shift_factors():
@@ -68,16 +74,14 @@ def measurements(words):
     }[kind]()
 
 
-def test_both_readmes_show_every_kind():
-    for readme in ("README.md", "calibration/README.md"):
-        kinds = {words[0] for words in examples(readme)}
-        assert kinds == {"hyperelastic", "friction", "wlf", "conductance", "partition"}
+@pytest.mark.parametrize("pages", [PAGES, (CALIBRATION,)], ids=["docs", "calibration"])
+def test_every_kind_is_shown(pages):
+    kinds = {words[0] for words in examples(*pages)}
+    assert kinds == {"hyperelastic", "friction", "wlf", "conductance", "partition"}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "words", [*examples("README.md"), *examples("calibration/README.md")], ids=" ".join
-)
+@pytest.mark.parametrize("words", unique([*examples(*PAGES), *examples(CALIBRATION)]), ids=" ".join)
 def test_example_makes_a_parameter_file(words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     measurements(words).to_csv(words[1], index=False)

@@ -21,7 +21,7 @@ VARIED = {
     "friction.law": "law",
     "friction.mu": "mu",
 }
-#: How it went. Each share and error is explained in the README, under "What a run writes".
+#: How it went. Each share and error is explained in `docs/files.md`.
 FOUND = (
     "status",
     "reason",

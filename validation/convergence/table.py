@@ -25,7 +25,7 @@ FORCES = tuple(f"force_at_{distance:g}_mm_N_per_mm" for distance in ONSET_MM)
 #: Columns of what of these is the damping's.
 DAMPING_FORCES = tuple(f"damping_{force}" for force in FORCES)
 PLATEN = "pressed_platen_mm"
-#: Results, and how they were come by; explained in the README, under "What a run writes".
+#: Results, and how they were come by; explained in `docs/files.md`.
 FOUND = (
     "T_max_C",
     "T_edge_C",

@@ -11,6 +11,8 @@ import pandas as pd
 from validation.convergence.onset import ONSET_MM
 from validation.convergence.table import DAMPING_FORCES, FORCES, PLATEN
 
+#: Share of the work that damping outside of snaps should stay below [-].
+DAMPED = 0.01
 #: How far the onset may be off its limit, of the force of full slip and of the platen [%].
 ONSET_PERCENT = 2.0
 _DEFAULT = {"damping": 1.0, "steps_scale": 1.0, "memory_mm": 0.3}
@@ -246,6 +248,40 @@ def _verdict(found: pd.DataFrame) -> str:
 
 def _counted(found: pd.DataFrame, key: str) -> str:
     return f"{(found[key] <= ONSET_PERCENT).sum()} of {len(found)}"
+
+
+# -- robustness ------------------------------------------------------------------------------------
+
+
+def robustness_text(table: pd.DataFrame) -> str:
+    """How many cases of the robustness study went through, and how well."""
+    ok = table[table["status"] == "ok"]
+    damped = ok["regularisation_share_with_onset"]
+    few = damped >= DAMPED
+    text = (
+        f"{len(ok)} of {len(table)} cases slide to their end: coefficients of "
+        f"{_listed(table['mu'])}, pressures of {_listed(table['mean_pressure_N_per_mm2'])} N/mm². "
+        f"Energy closes to {100 * ok['energy_error'].max():.2f} %, heat to "
+        f"{ok['heat_error'].max():.0e}; the block penetrates itself by at most "
+        f"{100 * ok['largest_self_penetration'].max():.2f} % of an element. Damping outside of "
+        f"snaps takes less than {100 * DAMPED:g} % of the work in {(~few).sum()} of them"
+    )
+    if not few.any():
+        return f"{text}."
+    return (
+        f"{text}, up to {100 * damped.max():.1f} % in the others, whose leading edge still rolls "
+        f"under in snaps at the end: {_at_most(ok, few, 'mu')} of them have the highest "
+        f"coefficient, {_at_most(ok, few, 'mean_pressure_N_per_mm2')} the highest pressure."
+    )
+
+
+def _listed(column: pd.Series) -> str:
+    return ", ".join(f"{value:g}" for value in sorted(column.dropna().unique()))
+
+
+def _at_most(table: pd.DataFrame, rows: pd.Series, column: str) -> int:
+    """How many of some rows have the highest value of a column."""
+    return int((table.loc[rows, column] == table[column].max()).sum())
 
 
 # -- Markdown --------------------------------------------------------------------------------------

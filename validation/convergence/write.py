@@ -1,8 +1,8 @@
-"""Tables of the studies to the limit, and what the README says of them.
+"""Tables of the studies to the limit and of robustness, and what `docs/verification.md` says.
 
 ``python -m validation.convergence.write SWEEP_OF_CONVERGENCE SWEEP_OF_ONSET`` writes
-``validation/convergence.csv`` and ``validation/onset.csv`` and renews the README's block; without
-folders it renews the block from the tables that are there.
+``validation/convergence.csv`` and ``validation/onset.csv`` and renews the page's block;
+without folders it renews the block from the tables that are there.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ import pandas as pd
 
 from fem.files.atomic import write_text
 from validation.convergence.onset import swept_runs
+from validation.convergence.robustness import TABLE as ROBUSTNESS
 from validation.convergence.table import CONVERGENCE, ONSET, convergence_table, onset_table
-from validation.convergence.text import convergence_text, onset_text
+from validation.convergence.text import convergence_text, onset_text, robustness_text
 
-README = Path(__file__).parents[2] / "README.md"
+PAGE = Path(__file__).parents[2] / "docs" / "verification.md"
 BEGIN, END = "<!-- convergence:begin -->", "<!-- convergence:end -->"
 
 
@@ -33,38 +34,42 @@ def write_tables(convergence: Path, onset: Path) -> None:
 
 
 def block() -> str:
-    """What stands between the README's markers, from the committed tables."""
+    """What stands between the page's markers, from the committed tables."""
     return (
         "The introductory example to its limit "
-        "([validation/convergence.csv](validation/convergence.csv)):\n\n"
+        "([validation/convergence.csv](../validation/convergence.csv)):\n\n"
         f"{convergence_text(pd.read_csv(CONVERGENCE))}\n\n"
         "The onset of other cases against its limit: the largest difference of the force at the "
         "same distances\nin per cent of the force of full slip, and in brackets the force that the "
-        "damping itself takes there\n([validation/onset.csv](validation/onset.csv)):\n\n"
-        f"{onset_text(pd.read_csv(ONSET))}\n"
+        "damping itself takes there\n([validation/onset.csv](../validation/onset.csv)):\n\n"
+        f"{onset_text(pd.read_csv(ONSET))}\n\n"
+        "The robustness study runs all rubbers of Table 1 with both friction laws and with "
+        "constant\ncoefficients, with one set of solver settings "
+        "([validation/robustness.csv](../validation/robustness.csv)):\n\n"
+        f"{robustness_text(pd.read_csv(ROBUSTNESS))}\n"
     )
 
 
-def with_block(readme: str, text: str) -> str:
-    """The README with another text between its markers.
+def with_block(page: str, text: str) -> str:
+    """The page with another text between its markers.
 
     Raises
     ------
     ValueError
         If the markers are not there once.
     """
-    parts = re.split(f"({BEGIN}\n|{END})", readme)
+    parts = re.split(f"({BEGIN}\n|{END})", page)
     if len(parts) != 5:
-        raise ValueError(f"README.md has to have {BEGIN} and {END} once each")
+        raise ValueError(f"{PAGE.name} has to have {BEGIN} and {END} once each")
     return "".join([*parts[:2], text, *parts[3:]])
 
 
 def main(folders: list[str]) -> None:
-    """Renew the tables, if there are folders, and the README."""
+    """Renew the tables, if there are folders, and the page."""
     if folders:
         write_tables(*map(Path, folders))
-    write_text(README, with_block(README.read_text(encoding="utf-8"), block()))
-    print(f"{README}: renewed from {CONVERGENCE.name} and {ONSET.name}")
+    write_text(PAGE, with_block(PAGE.read_text(encoding="utf-8"), block()))
+    print(f"{PAGE}: renewed from {CONVERGENCE.name}, {ONSET.name} and {ROBUSTNESS.name}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,6 @@
-"""The committed tables of the studies to the limit, and the README's block that is made of them."""
+"""The committed tables of the studies, and the page that is made of them."""
+
+import re
 
 import pandas as pd
 import pytest
@@ -14,8 +16,13 @@ from validation.convergence.table import (
     convergence_table,
     onset_table,
 )
-from validation.convergence.text import convergence_text, onset_differences, onset_text
-from validation.convergence.write import BEGIN, END, README, block, with_block
+from validation.convergence.text import (
+    convergence_text,
+    onset_differences,
+    onset_text,
+    robustness_text,
+)
+from validation.convergence.write import BEGIN, END, PAGE, block, with_block
 from validation.studies import cases_of
 
 VARIED = {
@@ -57,15 +64,43 @@ def test_the_committed_table_has_every_run_of_its_study_in_order(path):
     assert found["program_version"].nunique() == 1
 
 
-def test_the_readme_says_what_the_command_makes_of_the_tables():
-    readme = README.read_text(encoding="utf-8")
-    assert with_block(readme, block()) == readme
+def test_the_page_says_what_the_command_makes_of_the_tables():
+    page = PAGE.read_text(encoding="utf-8")
+    assert with_block(page, block()) == page
 
 
-def test_a_readme_without_its_markers_is_refused():
+def test_a_page_without_its_markers_is_refused():
     with pytest.raises(ValueError, match="once each"):
         with_block(f"{BEGIN}\n", "text")
     assert with_block(f"a\n{BEGIN}\nold\n{END}\nb", "new\n") == f"a\n{BEGIN}\nnew\n{END}\nb"
+
+
+def test_every_check_of_the_page_is_a_test():
+    page = PAGE.read_text(encoding="utf-8")
+    checks = re.findall(r"`(tests/[\w/]+\.py)::(\w+)` \|$", page, flags=re.MULTILINE)
+    assert len(checks) == page.count("| `tests/")
+    root = PAGE.parents[1]
+    found = [f"\ndef {name}(" in (root / path).read_text(encoding="utf-8") for path, name in checks]
+    assert all(found)
+
+
+def test_robustness_counts_what_ends_and_what_is_damped():
+    table = pd.DataFrame({
+        "status": ["ok", "ok", "not converged"],
+        "mu": [None, 1.2, 0.3],
+        "mean_pressure_N_per_mm2": [0.1, 0.5, 0.5],
+        "regularisation_share_with_onset": [0.001, 0.034, 0.9],
+        "energy_error": [0.001, 0.0004, 0.5],
+        "heat_error": [1e-14, 2e-14, 0.5],
+        "largest_self_penetration": [0.001, 0.009, 0.5],
+    })  # fmt: skip
+    text = robustness_text(table)
+    assert text.startswith("2 of 3 cases slide to their end: coefficients of 0.3, 1.2, pressures")
+    assert "Energy closes to 0.10 %, heat to 2e-14" in text
+    assert "at most 0.90 % of an element" in text
+    assert "in 1 of them, up to 3.4 % in the others" in text
+    assert "1 of them have the highest coefficient, 1 the highest pressure" in text
+    assert robustness_text(table[:1]).endswith("less than 1 % of the work in 1 of them.")
 
 
 def test_both_distances_of_the_damping_are_scaled_alike():
