@@ -9,7 +9,6 @@ from typing import Any, get_args
 
 from calibration.conductance.fit import ALSO
 from calibration.data.errors import DataError
-from calibration.data.tables import ABSOLUTE_ZERO_C
 from calibration.fitting.progress import watched
 from calibration.friction.curves import LAWS
 from calibration.outcomes import (
@@ -32,6 +31,7 @@ from fem.case.reading import parse_override
 from fem.files.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
 from fem.results.output_folder import chosen_output, output_folder
 from materials.hyperelastic import MODES
+from materials.units import ABSOLUTE_ZERO_C
 from materials.wlf import WLF
 
 CONSTANTS = WLF()

@@ -6,11 +6,9 @@ References
    applications", Tables 1-2.
 """
 
-from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
 from calibration.datasets import DATASETS, dataset_path
@@ -128,36 +126,6 @@ def friction_fit(law: str, seed: int, noise: float = FRICTION_NOISE) -> FitResul
     """Fit of a friction law to its synthetic tests."""
     table = synthetic_friction(FRICTION_LAWS[law], noise=noise, seed=seed)
     return fit_friction(table, law)
-
-
-def coverage(
-    fit: Callable[[int], FitResult], truth: dict[str, float], seeds: int = 100
-) -> pd.DataFrame:
-    """How often the fits of many seeds tell the truth about their own uncertainty.
-
-    Returns
-    -------
-    DataFrame
-        A row per parameter: ``parameter, within_3_stderr`` (share of seeds), ``in_95_interval``
-        (share), and ``all_within_3_stderr`` (share of seeds where every parameter is).
-    """
-    results = [fit(seed) for seed in range(seeds)]
-    names = results[0].names
-    off = np.array([[_off(result, name, truth[name]) for name in names] for result in results])
-    inside = np.array(
-        [
-            [low <= truth[name] <= high for name, (low, high) in result.interval().items()]
-            for result in results
-        ]
-    )
-    return pd.DataFrame(
-        {
-            "parameter": names,
-            "within_3_stderr": (np.abs(off) <= 3.0).mean(axis=0),
-            "in_95_interval": inside.mean(axis=0),
-            "all_within_3_stderr": float(np.all(np.abs(off) <= 3.0, axis=1).mean()),
-        }
-    )
 
 
 def friction_values() -> dict[str, dict[str, float]]:

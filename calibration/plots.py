@@ -14,8 +14,7 @@ from calibration.fitting.core import FitResult
 from calibration.friction.data import FrictionData
 from calibration.rubber.stress_data import StressData
 from calibration.shifting.master_curve import MasterCurve
-
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 # Okabe and Ito's colours, which readers with any colour vision can tell apart
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -100,18 +99,18 @@ def _shown(count: int) -> NDArray[np.intp]:
     return np.unique(np.linspace(0, count - 1, min(count, _MOST_DOTS)).round().astype(np.intp))
 
 
-def _groups(p: Array) -> Array:
+def _groups(p: FloatArray) -> FloatArray:
     """The pressures themselves when they are few, else five that stand for them."""
     levels = np.unique(p)
     return levels if levels.size <= 7 else np.quantile(p, [0.1, 0.3, 0.5, 0.7, 0.9])
 
 
-def _nearest(p: Array, i: int) -> NDArray[np.bool_]:
+def _nearest(p: FloatArray, i: int) -> NDArray[np.bool_]:
     """Points that belong to the i-th of the five representative pressures."""
     return np.asarray(np.argmin(np.abs(p[:, None] - _groups(p)), axis=1) == i)
 
 
-def plot_wlf(result: FitResult, temperatures: Array) -> Figure:
+def plot_wlf(result: FitResult, temperatures: FloatArray) -> Figure:
     """Shift factors over temperature with the WLF curve, and the residuals below."""
     figure, (above, below) = _panels()
     shown = _shown(temperatures.size)

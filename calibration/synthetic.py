@@ -15,14 +15,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from contact.friction import FrictionLaw, shifted
+from materials.arrays import FloatArray
 from materials.compounds import compound
 from materials.hyperelastic import Hyperelastic
 from materials.wlf import WLF
-
-Array = NDArray[np.float64]
 
 STRESS_NOISE_N_PER_MM2 = 0.01
 FRICTION_NOISE = 0.002
@@ -158,7 +157,7 @@ def synthetic_dumbbell_cycles(
     return _noisy(pd.concat(parts, ignore_index=True), noise_N_per_mm2, seed)
 
 
-def _stable_loop(series: int, stretch: Array, highest: float) -> tuple[Array, Array]:
+def _stable_loop(series: int, stretch: FloatArray, highest: float) -> tuple[FloatArray, FloatArray]:
     if series == 2:
         return _loop(compound("yeoh-bars-series-2"), stretch, highest, 0.35)
     mean = compound("yeoh-bars-series-1").nominal_stress(stretch, "uniaxial")
@@ -166,7 +165,9 @@ def _stable_loop(series: int, stretch: Array, highest: float) -> tuple[Array, Ar
     return load, 2.0 * mean - load
 
 
-def _loop(model: Hyperelastic, stretch: Array, end: float, width: float) -> tuple[Array, Array]:
+def _loop(
+    model: Hyperelastic, stretch: FloatArray, end: float, width: float
+) -> tuple[FloatArray, FloatArray]:
     """Load and unload path that open by `width` about the model and close at both ends."""
     mean = model.nominal_stress(stretch, "uniaxial")
     z = np.clip((stretch - 1.0) / (end - 1.0), 0.0, 1.0)
@@ -183,7 +184,7 @@ def _softening(cycle: int, cycles: int) -> float:
 
 
 def _path(
-    cycle: int, branch: str, stretch: Array, stress: Array, backwards: bool = False
+    cycle: int, branch: str, stretch: FloatArray, stress: FloatArray, backwards: bool = False
 ) -> pd.DataFrame:
     order = slice(None, None, -1) if backwards else slice(None)
     table = _stress_table(stretch[order], stress[order])
@@ -192,7 +193,7 @@ def _path(
     return table
 
 
-def _stress_table(stretch: Array, stress: Array) -> pd.DataFrame:
+def _stress_table(stretch: FloatArray, stress: FloatArray) -> pd.DataFrame:
     return pd.DataFrame(
         {"stretch": stretch, "nominal_stress_N_per_mm2": stress, "mode": "uniaxial"}
     )

@@ -21,9 +21,8 @@ from calibration.fitting.core import FitResult, Problem, fit
 from calibration.fitting.provenance import version
 from calibration.shifting.frequency_sweeps import is_sweep_table
 from calibration.shifting.master_curve import MasterCurve, shift_sweeps
+from materials.arrays import FloatArray
 from materials.wlf import WLF
-
-Array = NDArray[np.float64]
 
 SHIFT_COLUMNS = ("T_C", "log10_aT")
 LEAST_R2 = 0.5  # a curve that explains less of the factors is none
@@ -49,8 +48,8 @@ class ShiftFactors:
         Where the factors come from, if from sweeps.
     """
 
-    T: Array
-    log_aT: Array
+    T: FloatArray
+    log_aT: FloatArray
     rows: NDArray[np.int64]
     out: tuple[LeftOut, ...]
     source: Table | None = None
@@ -180,7 +179,7 @@ def read_shift_factors(
     )
 
 
-def _logarithms(source: Table) -> Array:
+def _logarithms(source: Table) -> FloatArray:
     if source.has("aT") and not source.has("log10_aT"):
         aT = source.numbers("aT")
         source.require_all("aT", aT > 0.0, "a shift factor above 0")
@@ -274,23 +273,23 @@ def _glass_warnings(data: ShiftFactors, wlf: WLF, reference: float) -> tuple[str
     )
 
 
-def _fitted(dT: Array, log_aT: Array) -> FitResult:
+def _fitted(dT: FloatArray, log_aT: FloatArray) -> FitResult:
     problem = _wlf_problem(dT, log_aT)
     return fit(problem, _wlf_starts(problem, dT, log_aT))
 
 
-def _wlf_problem(dT: Array, log_aT: Array) -> Problem:
+def _wlf_problem(dT: FloatArray, log_aT: FloatArray) -> Problem:
     pole = max(float(-dT.min()), 0.0) + _POLE_DISTANCE_K
     whole = _wlf_problem_at(dT, log_aT, pole)
     return replace(whole, subset=lambda rows: _wlf_problem_at(dT[rows], log_aT[rows], pole))
 
 
-def _wlf_problem_at(dT: Array, log_aT: Array, pole: float) -> Problem:
-    def predict(theta: Array) -> Array:
+def _wlf_problem_at(dT: FloatArray, log_aT: FloatArray, pole: float) -> Problem:
+    def predict(theta: FloatArray) -> FloatArray:
         d1, d2, offset = theta
         return np.asarray(offset - d1 * dT / (d2 + dT))
 
-    def jacobian(theta: Array) -> Array:
+    def jacobian(theta: FloatArray) -> FloatArray:
         d1, d2, _ = theta
         reached = d2 + dT
         return np.stack([-dT / reached, d1 * dT / reached**2, np.ones_like(dT)], axis=1)
@@ -305,7 +304,7 @@ def _wlf_problem_at(dT: Array, log_aT: Array, pole: float) -> Problem:
     )
 
 
-def _wlf_starts(problem: Problem, dT: Array, log_aT: Array) -> Array:
+def _wlf_starts(problem: Problem, dT: FloatArray, log_aT: FloatArray) -> FloatArray:
     """For a given d2 the shift is linear in d1 and the offset."""
     points = []
     few = np.linspace(0, dT.size - 1, min(dT.size, 2_000)).round().astype(np.intp)

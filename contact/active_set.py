@@ -16,8 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from materials.arrays import FloatArray, IntArray
 
 OPEN, STICK, SLIP = 0, 1, 2
 

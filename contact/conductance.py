@@ -10,11 +10,10 @@ References
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.checks import require_finite, require_not_negative, require_positive
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +46,7 @@ class GapConductance:
         require_positive(p_ref=self.p_ref, v_ref=self.v_ref)
         require_finite(modulus_exponent=self.modulus_exponent)
 
-    def conductance(self, p: ArrayLike, v: ArrayLike = 0.0) -> Array:
+    def conductance(self, p: ArrayLike, v: ArrayLike = 0.0) -> FloatArray:
         """Conductance h [W/(m^2 K)] at pressure p [N/mm^2] and speed v [mm/s] (broadcast).
 
         Zero where p is zero or negative (no contact).
@@ -56,7 +55,7 @@ class GapConductance:
         h = np.where(pressure > 0.0, self.h_ref * pressure**self.exponent, 0.0)
         return h * self.stiffening(v) ** -self.exponent
 
-    def stiffening(self, v: ArrayLike) -> Array:
+    def stiffening(self, v: ArrayLike) -> FloatArray:
         """Ratio ``E1(v)/E1(0)`` [-] at speed v [mm/s]."""
         return (1.0 + np.abs(np.asarray(v, dtype=float)) / self.v_ref) ** self.modulus_exponent
 
@@ -109,7 +108,7 @@ class ContactSurface:
         )
 
 
-def mikic_conductance(p: ArrayLike, surface: ContactSurface, *, C: float = 1.0) -> Array:
+def mikic_conductance(p: ArrayLike, surface: ContactSurface, *, C: float = 1.0) -> FloatArray:
     """Conductance of eq. (11) [W/(m^2 K)].
 
     ``h = C kbar |zeta|/sigma (p sqrt(2)/(Ebar |zeta|))^0.94``

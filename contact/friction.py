@@ -17,29 +17,28 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.checks import require_finite, require_not_negative, require_positive
 from materials.wlf import WLF
-
-Array = NDArray[np.float64]
 
 
 class FrictionCoefficient(NamedTuple):
     """Friction coefficient [-] with its derivatives [mm^2/N] and [s/mm]."""
 
-    mu: Array
-    dmu_dp: Array
-    dmu_dv: Array
+    mu: FloatArray
+    dmu_dp: FloatArray
+    dmu_dv: FloatArray
 
 
 class ThermalFrictionCoefficient(NamedTuple):
     """Friction coefficient [-] with its derivatives [mm^2/N], [s/mm] and [1/K]."""
 
-    mu: Array
-    dmu_dp: Array
-    dmu_dv: Array
-    dmu_dT: Array
+    mu: FloatArray
+    dmu_dp: FloatArray
+    dmu_dv: FloatArray
+    dmu_dT: FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,10 +65,10 @@ class FrictionLaw(ABC):
         require_positive(p_min=self.p_min, v_min=self.v_min)
 
     @abstractmethod
-    def _law(self, p: Array, v: Array) -> FrictionCoefficient:
+    def _law(self, p: FloatArray, v: FloatArray) -> FrictionCoefficient:
         """Law and derivatives at pressures and speeds that are at or above the floors."""
 
-    def coefficient(self, p: ArrayLike, v: ArrayLike) -> Array:
+    def coefficient(self, p: ArrayLike, v: ArrayLike) -> FloatArray:
         """Friction coefficient [-] at pressure p [N/mm^2] and velocity v [mm/s] (broadcast)."""
         return self.evaluate(p, v).mu
 
@@ -109,7 +108,7 @@ class CoulombFriction(FrictionLaw):
         super().__post_init__()
         require_not_negative(mu=self.mu)
 
-    def _law(self, p: Array, v: Array) -> FrictionCoefficient:
+    def _law(self, p: FloatArray, v: FloatArray) -> FrictionCoefficient:
         return FrictionCoefficient(np.full(p.shape, self.mu), np.zeros(p.shape), np.zeros(p.shape))
 
 
@@ -133,7 +132,7 @@ class ExponentialFriction(FrictionLaw):
         require_positive(A=self.A)
         require_finite(B=self.B, C=self.C)
 
-    def _law(self, p: Array, v: Array) -> FrictionCoefficient:
+    def _law(self, p: FloatArray, v: FloatArray) -> FrictionCoefficient:
         mu = self.A * p**self.B * v**self.C
         return FrictionCoefficient(mu, self.B * mu / p, self.C * mu / v)
 
@@ -190,7 +189,7 @@ class HuemerFriction(FrictionLaw):
         # s = 0 is reached only for infinite speed, so a = 0 is refused as well
         return min(self.a + self.b * s + self.c * s * s for s in at)
 
-    def _law(self, p: Array, v: Array) -> FrictionCoefficient:
+    def _law(self, p: FloatArray, v: FloatArray) -> FrictionCoefficient:
         s = v**-self.inverse_m
         pressure_part = self.alpha * p ** (self.n - 1.0)
         numerator = pressure_part + self.beta
@@ -231,7 +230,7 @@ class ThermalFriction:
         require_finite(T_ref_C=self.T_ref_C)
         require_not_negative(memory_mm=self.memory_mm)
 
-    def remembered(self, v_before: ArrayLike, v: ArrayLike, slip: ArrayLike) -> Array:
+    def remembered(self, v_before: ArrayLike, v: ArrayLike, slip: ArrayLike) -> FloatArray:
         """Speed that the coefficient knows of after a slip at the speed v [mm/s].
 
         A law mu(v) is measured at constant speed. After a change of the speed the coefficient
@@ -250,7 +249,7 @@ class ThermalFriction:
             return v
         return v + (v_before - v) * np.exp(-np.abs(slip) / self.memory_mm)
 
-    def coefficient(self, p: ArrayLike, v: ArrayLike, T_C: ArrayLike) -> Array:
+    def coefficient(self, p: ArrayLike, v: ArrayLike, T_C: ArrayLike) -> FloatArray:
         """Friction coefficient [-] at p [N/mm^2], v [mm/s] and T_C [deg C] (broadcast)."""
         return self.evaluate(p, v, T_C).mu
 

@@ -16,16 +16,15 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.checks import (
     require_between,
     require_finite,
     require_not_negative,
     require_positive,
 )
-
-Array = NDArray[np.float64]
 
 # Keeps 0 * infinity out of the law without touching any pressure that a contact can have.
 _NO_PRESSURE = 1e-100
@@ -63,11 +62,11 @@ class HeatPartition:
         elif self.pressure not in ("mean", "local"):
             raise ValueError(f'pressure = {self.pressure!r}; expected "mean", "local" or a number')
 
-    def __call__(self, p: ArrayLike) -> Array:
+    def __call__(self, p: ArrayLike) -> FloatArray:
         """Partition kappa [-] at the pressure p [N/mm^2]."""
         return np.minimum(self.uncapped(p), self.cap)
 
-    def governing(self, p: ArrayLike, mean: float) -> Array:
+    def governing(self, p: ArrayLike, mean: float) -> FloatArray:
         """Pressure that enters the law at points of a contact [N/mm^2].
 
         Parameters
@@ -82,7 +81,7 @@ class HeatPartition:
             return p
         return np.full_like(p, mean if self.pressure == "mean" else float(self.pressure))
 
-    def uncapped(self, p: ArrayLike) -> Array:
+    def uncapped(self, p: ArrayLike) -> FloatArray:
         """Partition of eq. (14) without the cap [-]; huge, not infinite, at zero pressure."""
         return (
             self.prefactor * np.maximum(np.asarray(p, dtype=float), _NO_PRESSURE) ** self.exponent

@@ -25,8 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from materials.arrays import FloatArray, IntArray
 
 #: The cosine between the normals of a node and a segment that can meet is below this: they oppose
 #: each other. At the tip of a fold the boundary turns right round, so that the normal of one of the

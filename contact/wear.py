@@ -12,11 +12,10 @@ References
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.checks import require_not_negative, require_positive
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +51,7 @@ class EnergyWear:
         require_not_negative(coefficient=self.coefficient)
         require_positive(power_exponent=self.power_exponent, reference_power=self.reference_power)
 
-    def depth_rate(self, power: ArrayLike) -> Array:
+    def depth_rate(self, power: ArrayLike) -> FloatArray:
         """Depth per time [mm/s] at the friction power [mJ/(mm^2 s)] of points (broadcast)."""
         w = np.maximum(np.asarray(power, dtype=float), 0.0)
         w_ref = 1e3 * self.reference_power

@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.hyperelastic_base import MODES, TRANSVERSE, Hyperelastic, Mode, checked_stretch
 from materials.maxwell import dissipated_share, step_weights
 from materials.prony import Prony
 from materials.softening import OgdenRoxburgh
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,11 +29,11 @@ class HomogeneousTest:
         Factor of softening on the elastic stress [-].
     """
 
-    nominal_stress: Array
-    stored: Array
-    viscous: Array
-    damage: Array
-    eta: Array
+    nominal_stress: FloatArray
+    stored: FloatArray
+    viscous: FloatArray
+    damage: FloatArray
+    eta: FloatArray
 
 
 def homogeneous_test(
@@ -71,7 +70,7 @@ def homogeneous_test(
     )
 
 
-def reduced_steps(viscous: Prony, time: Array, T_C: ArrayLike | None) -> Array:
+def reduced_steps(viscous: Prony, time: FloatArray, T_C: ArrayLike | None) -> FloatArray:
     """Reduced lengths ``h = integral of dt/(a_T tau)`` of the steps to each row, (n, branches)."""
     if T_C is not None and viscous.shift is None:
         raise ValueError("T_C is given; expected none for branches without a shift")
@@ -92,12 +91,12 @@ class BranchHistories:
         Energy stored and dissipated since the start [-].
     """
 
-    stress: Array
-    stored: Array
-    dissipated: Array
+    stress: FloatArray
+    stored: FloatArray
+    dissipated: FloatArray
 
 
-def branch_histories(h: Array, lam: Array, mode: Mode) -> BranchHistories:
+def branch_histories(h: FloatArray, lam: FloatArray, mode: Mode) -> BranchHistories:
     """Branches of modulus 1 in a homogeneous test.
 
     Parameters
@@ -135,7 +134,7 @@ def branch_histories(h: Array, lam: Array, mode: Mode) -> BranchHistories:
     )
 
 
-def _squared_stretches(lam: Array, mode: Mode) -> Array:
+def _squared_stretches(lam: FloatArray, mode: Mode) -> FloatArray:
     """Squared principal stretches (n, 3), the free direction last."""
     if mode not in TRANSVERSE:
         raise ValueError(f"mode is {mode!r}; expected one of {', '.join(MODES)}")
@@ -143,7 +142,7 @@ def _squared_stretches(lam: Array, mode: Mode) -> Array:
     return np.stack([lam, 1.0 / (lam * free), free], axis=1) ** 2
 
 
-def _rows(time_s: ArrayLike, stretch: ArrayLike) -> tuple[Array, Array]:
+def _rows(time_s: ArrayLike, stretch: ArrayLike) -> tuple[FloatArray, FloatArray]:
     time, lam = np.atleast_1d(np.asarray(time_s, dtype=float)), checked_stretch(stretch)
     lam = np.atleast_1d(lam)
     if time.ndim != 1 or time.shape != lam.shape:

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from materials.arrays import FloatArray
 from materials.checks import require_between, require_finite, require_positive
 from materials.hyperelastic_base import (
     MODES,
@@ -42,7 +43,6 @@ __all__ = [
     "incompressible_kinematics",
 ]
 
-Array = NDArray[np.float64]
 
 # Below this value of s - 3 the curvature term of the van der Waals energy contributes less than
 # 1e-7 G to dP/dF (its limit at the undeformed state is zero) but would amplify rounding.
@@ -59,7 +59,7 @@ class MixedInvariantEnergy(Hyperelastic):
         """Weights ``(c1, c2)`` of the two isochoric invariants in the mixed invariant s [-]."""
 
     @abstractmethod
-    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+    def energy(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Energy ``w(s)`` [N/mm^2] with its first and second derivative with respect to s."""
 
     def derivatives(self, I1: ArrayLike, J: ArrayLike) -> EnergyDerivatives:
@@ -84,7 +84,7 @@ class MixedInvariantEnergy(Hyperelastic):
                 W_JJ=w2 * (s_J * s_J) + w1 * s_JJ,
             )
 
-    def _mixed_invariant(self, I1: Array, J: Array) -> tuple[Array, ...]:
+    def _mixed_invariant(self, I1: FloatArray, J: FloatArray) -> tuple[FloatArray, ...]:
         """s and its derivatives ``s_1, s_J, s_1J, s_JJ`` (s_11 is zero)."""
         c1, c2 = self.mixture
         inverse = 1.0 / J
@@ -108,7 +108,7 @@ class MixedInvariantEnergy(Hyperelastic):
         s_JJ = s_JJ - (7.0 / 3.0) * inverse * part_J - (2.0 / 9.0) * fourth
         return s, s_1, s_J, s_1J, s_JJ
 
-    def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+    def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> FloatArray:
         """Nominal stress [N/mm^2] of a homogeneous test (see `Hyperelastic.nominal_stress`)."""
         I1b, I2b, k1, k2 = incompressible_kinematics(checked_stretch(stretch), mode)
         c1, c2 = self.mixture
@@ -116,14 +116,14 @@ class MixedInvariantEnergy(Hyperelastic):
             _, slope, _ = self.energy(c1 * I1b + c2 * I2b)
         return slope * (c1 * k1 + c2 * k2)
 
-    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> FloatArray:
         """Energy per volume [N/mm^2] of a homogeneous test (see `Hyperelastic.strain_energy`)."""
         I1b, I2b, _, _ = incompressible_kinematics(checked_stretch(stretch), mode)
         c1, c2 = self.mixture
         with np.errstate(all="ignore"):
             return self.energy(c1 * I1b + c2 * I2b)[0]
 
-    def log_derivatives(self, e1: Array, e2: Array) -> tuple[Array, Array]:
+    def log_derivatives(self, e1: FloatArray, e2: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Gradient and Hessian of W in two logarithmic stretches (see `Hyperelastic`)."""
         c1, c2 = self.mixture
         e = np.stack([e1, e2, -e1 - e2])
@@ -143,7 +143,9 @@ class MixedInvariantEnergy(Hyperelastic):
         return gradient, hessian
 
 
-def incompressible_kinematics(lam: Array, mode: str) -> tuple[Array, Array, Array, Array]:
+def incompressible_kinematics(
+    lam: FloatArray, mode: str
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Invariants and stress factors of the homogeneous incompressible tests.
 
     Parameters
@@ -193,7 +195,7 @@ class NeoHooke(MixedInvariantEnergy):
     def initial_shear_modulus(self) -> float:
         return self.G
 
-    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+    def energy(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         half = np.full_like(s, 0.5 * self.G)
         return half * (s - 3.0), half, np.zeros_like(s)
 
@@ -223,7 +225,7 @@ class MooneyRivlin(MixedInvariantEnergy):
     def initial_shear_modulus(self) -> float:
         return 2.0 * (self.C10 + self.C01)
 
-    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+    def energy(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         return s - 3.0 * (self.C10 + self.C01), np.ones_like(s), np.zeros_like(s)
 
 
@@ -257,7 +259,7 @@ class Yeoh(MixedInvariantEnergy):
     def initial_shear_modulus(self) -> float:
         return 2.0 * self.C10
 
-    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+    def energy(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         x = s - 3.0
         cubic = self.C30 * x
         W = x * (self.C10 + x * (self.C20 + cubic))
@@ -312,10 +314,10 @@ class VanDerWaals(MixedInvariantEnergy):
     def initial_shear_modulus(self) -> float:
         return self.G
 
-    def _below_locking(self, I1: Array, J: Array) -> NDArray[np.bool_]:
+    def _below_locking(self, I1: FloatArray, J: FloatArray) -> NDArray[np.bool_]:
         return self._mixed_invariant(I1, J)[0] < self.lambda_m**2
 
-    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+    def energy(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         G, limit = self.G, self.lambda_m**2 - 3.0
         x = np.maximum(s - 3.0, 0.0)
         root = np.sqrt(x)
@@ -366,7 +368,7 @@ class ArrudaBoyce(MixedInvariantEnergy):
     def initial_shear_modulus(self) -> float:
         return float(2.0 * self.energy(np.array(3.0))[1])
 
-    def energy(self, s: Array) -> tuple[Array, Array, Array]:
+    def energy(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         q = self.lambda_m**-2
         weights = [self.C1 * c * q**i for i, c in enumerate(_ARRUDA_BOYCE)]
         W = np.zeros_like(s)

@@ -11,6 +11,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from materials.arrays import FloatArray
 from materials.material import (
     Deformation,
     EnergyDerivatives,
@@ -20,7 +21,6 @@ from materials.material import (
     Stiffness,
 )
 
-Array = NDArray[np.float64]
 Mode = Literal["uniaxial", "equibiaxial", "planar"]
 MODES: tuple[str, ...] = get_args(Mode)
 
@@ -54,7 +54,7 @@ class Hyperelastic(ABC):
         """
 
     @abstractmethod
-    def log_derivatives(self, e1: Array, e2: Array) -> tuple[Array, Array]:
+    def log_derivatives(self, e1: FloatArray, e2: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Gradient (n, 2) and Hessian (n, 2, 2) of W [N/mm^2] in the logarithmic stretches (n,).
 
         The third stretch follows from incompressibility, ``e3 = -e1 - e2``. NaN beyond a locking
@@ -62,7 +62,7 @@ class Hyperelastic(ABC):
         """
 
     @abstractmethod
-    def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+    def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> FloatArray:
         """Nominal stress of the incompressible material in a homogeneous test.
 
         Parameters
@@ -79,14 +79,14 @@ class Hyperelastic(ABC):
         """
 
     @abstractmethod
-    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> FloatArray:
         """Energy per volume [N/mm^2] of the same tests (see `nominal_stress`)."""
 
-    def virgin(self, points: tuple[int, ...]) -> Array | None:
+    def virgin(self, points: tuple[int, ...]) -> FloatArray | None:
         """No state variables: a hyperelastic law remembers nothing (see `materials.material`)."""
         return None
 
-    def step(self, state: Array | None, dt: float, T_C: Array | None) -> MaterialStep:
+    def step(self, state: FloatArray | None, dt: float, T_C: FloatArray | None) -> MaterialStep:
         """The law itself: all steps are alike."""
         return self
 
@@ -117,11 +117,11 @@ class Hyperelastic(ABC):
             valid = (J > 0.0) & np.isfinite(I1) & np.isfinite(J)
             return valid & self._below_locking(I1, np.where(J > 0.0, J, 1.0))
 
-    def _below_locking(self, I1: Array, J: Array) -> NDArray[np.bool_] | np.bool_:
+    def _below_locking(self, I1: FloatArray, J: FloatArray) -> NDArray[np.bool_] | np.bool_:
         return np.True_
 
 
-def checked_stretch(stretch: ArrayLike) -> Array:
+def checked_stretch(stretch: ArrayLike) -> FloatArray:
     """Stretches as an array, refused at or below zero."""
     lam = np.asarray(stretch, dtype=float)
     if not np.all(lam > 0.0):

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 
 class EnergyDerivatives(NamedTuple):
@@ -22,42 +22,42 @@ class EnergyDerivatives(NamedTuple):
     ``W_1`` is dW/dI1 at constant J, ``W_J`` is dW/dJ at constant I1, and so on.
     """
 
-    W: Array
-    W_1: Array
-    W_J: Array
-    W_11: Array
-    W_1J: Array
-    W_JJ: Array
+    W: FloatArray
+    W_1: FloatArray
+    W_J: FloatArray
+    W_11: FloatArray
+    W_1J: FloatArray
+    W_JJ: FloatArray
 
 
 class InPlane(NamedTuple):
     """Components 11, 22 and 12 of a symmetric tensor in the plane."""
 
-    xx: Array
-    yy: Array
-    xy: Array
+    xx: FloatArray
+    yy: FloatArray
+    xy: FloatArray
 
 
 class Stiffness(NamedTuple):
     """Symmetric tangent of stresses S11, S22, S12 by the strains E11, E22, 2 E12 [N/mm^2]."""
 
-    D11: Array
-    D22: Array
-    D33: Array
-    D12: Array
-    D13: Array
-    D23: Array
+    D11: FloatArray
+    D22: FloatArray
+    D33: FloatArray
+    D12: FloatArray
+    D13: FloatArray
+    D23: FloatArray
 
 
 class Deformation(Protocol):
     """Deformation at points, arrays of one shape (..., q)."""
 
     @property
-    def I1(self) -> Array:
+    def I1(self) -> FloatArray:
         """First invariant F:F + 1 [-]."""
 
     @property
-    def J(self) -> Array:
+    def J(self) -> FloatArray:
         """Determinant of F [-]."""
 
     @property
@@ -100,11 +100,11 @@ class StepEnd:
         Factor of its elastic stress [-].
     """
 
-    stored: Array
-    state: Array | None = None
-    viscous: Array | None = None
-    damage: Array | None = None
-    softening: Array | None = None
+    stored: FloatArray
+    state: FloatArray | None = None
+    viscous: FloatArray | None = None
+    damage: FloatArray | None = None
+    softening: FloatArray | None = None
 
 
 class MaterialStep(Protocol):
@@ -135,10 +135,10 @@ class Material(Protocol):
     def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
         """Whether the energy exists at the state."""
 
-    def virgin(self, points: tuple[int, ...]) -> Array | None:
+    def virgin(self, points: tuple[int, ...]) -> FloatArray | None:
         """State variables (k, *points) before the first step; None for a material without."""
 
-    def step(self, state: Array | None, dt: float, T_C: Array | None) -> MaterialStep:
+    def step(self, state: FloatArray | None, dt: float, T_C: FloatArray | None) -> MaterialStep:
         """A time step from an accepted state.
 
         Parameters

@@ -25,16 +25,15 @@ References
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import exprel
 
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 #: Below this reduced step the strain is taken as straight, not exponential, in `dissipated_share`.
 _SHORT = 1e-3
 
 
-def step_weights(h: Array, beta: Array) -> tuple[Array, Array, Array]:
+def step_weights(h: FloatArray, beta: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Weights of Ci_n, X_n and X in A (see above) for reduced steps h and growth rates beta."""
     x = beta * h
     old = np.exp(-x)
@@ -42,7 +41,9 @@ def step_weights(h: Array, beta: Array) -> tuple[Array, Array, Array]:
     return old, (phi - old) / beta, (1.0 - phi) / beta
 
 
-def dissipated_share(h: Array, before: Array, cross: Array, after: Array) -> Array:
+def dissipated_share(
+    h: FloatArray, before: FloatArray, cross: FloatArray, after: FloatArray
+) -> FloatArray:
     """Integral of ``e:e`` over a step of reduced length h, where e relaxes towards a steady value.
 
     Parameters
@@ -79,25 +80,25 @@ class PlaneDrive(NamedTuple):
         Weight of the new X [-].
     """
 
-    B11: Array
-    B22: Array
-    B12: Array
-    d: Array
-    D33: Array
-    k: Array
+    B11: FloatArray
+    B22: FloatArray
+    B12: FloatArray
+    d: FloatArray
+    D33: FloatArray
+    k: FloatArray
 
 
 class BranchDerivatives(NamedTuple):
     """Derivatives of Phi by ``q = B:C`` and J [N/mm^2], arrays (branches, ...)."""
 
-    q: Array
-    J: Array
-    qq: Array
-    qJ: Array
-    JJ: Array
+    q: FloatArray
+    J: FloatArray
+    qq: FloatArray
+    qJ: FloatArray
+    JJ: FloatArray
 
 
-def plane_drive(X_n: Array, Ci_n: Array, h: Array) -> PlaneDrive:
+def plane_drive(X_n: FloatArray, Ci_n: FloatArray, h: FloatArray) -> PlaneDrive:
     """Drive of a step from the isochoric X_n (3, ...) and Ci_n (3, branches, ...).
 
     Components 11, 22, 12; h (branches, ...) is the reduced length of the step.
@@ -110,7 +111,7 @@ def plane_drive(X_n: Array, Ci_n: Array, h: Array) -> PlaneDrive:
 
 
 def plane_derivatives(
-    drive: PlaneDrive, G: Array, C: tuple[Array, ...], J: Array
+    drive: PlaneDrive, G: FloatArray, C: tuple[FloatArray, ...], J: FloatArray
 ) -> BranchDerivatives:
     """Derivatives of Phi at C (components 11, 22, 12) and J; G (branches, 1, ...) [N/mm^2]."""
     B11, B22, B12, d, D33, k = drive
@@ -139,7 +140,7 @@ def plane_derivatives(
     )
 
 
-def plane_stress(drive: PlaneDrive, d: BranchDerivatives) -> tuple[Array, ...]:
+def plane_stress(drive: PlaneDrive, d: BranchDerivatives) -> tuple[FloatArray, ...]:
     """Second Piola-Kirchhoff stresses ``2 Phi_q B`` of all branches, 11, 22, 12 [N/mm^2].
 
     The rest of their stress, ``Phi_J cof F``, goes together with that of the elastic energy.
@@ -148,8 +149,8 @@ def plane_stress(drive: PlaneDrive, d: BranchDerivatives) -> tuple[Array, ...]:
 
 
 def plane_stiffness(
-    drive: PlaneDrive, d: BranchDerivatives, C: tuple[Array, ...], J: Array
-) -> tuple[Array, ...]:
+    drive: PlaneDrive, d: BranchDerivatives, C: tuple[FloatArray, ...], J: FloatArray
+) -> tuple[FloatArray, ...]:
     """Tangent of `plane_stress` and what q and J have in common, by E11, E22, 2 E12 [N/mm^2].
 
     Entries 11, 22, 33, 12, 13, 23 of a symmetric matrix. The rest, by J alone, is ``Phi_JJ``.
@@ -164,7 +165,7 @@ def plane_stiffness(
     )
 
 
-def plane_internal(drive: PlaneDrive, X: Array) -> Array:
+def plane_internal(drive: PlaneDrive, X: FloatArray) -> FloatArray:
     """Ci (3, branches, ...) at the end of the step, for the isochoric X (3, ...) there."""
     A11, A22, A12 = (
         D + drive.k * x for D, x in zip((drive.B22, drive.B11, -drive.B12), X, strict=True)
@@ -174,7 +175,7 @@ def plane_internal(drive: PlaneDrive, X: Array) -> Array:
     return np.stack([A11 * scale, A22 * scale, A12 * scale])
 
 
-def plane_elastic(X: Array, Ci: Array) -> tuple[Array, tuple[Array, ...]]:
+def plane_elastic(X: FloatArray, Ci: FloatArray) -> tuple[FloatArray, tuple[FloatArray, ...]]:
     """Trace of ``M = X Ci^-1`` and its components 11, 12, 21, 22, 33; each (branches, ...)."""
     c11, c22, c12 = Ci
     d = _det(Ci)
@@ -188,11 +189,15 @@ def plane_elastic(X: Array, Ci: Array) -> tuple[Array, tuple[Array, ...]]:
     return M[0] + M[3] + M[4], M
 
 
-def plane_dissipated(X_n: Array, Ci_n: Array, X: Array, Ci: Array, h: Array) -> Array:
+def plane_dissipated(
+    X_n: FloatArray, Ci_n: FloatArray, X: FloatArray, Ci: FloatArray, h: FloatArray
+) -> FloatArray:
     """Integral of ``tr[dev(X Ci^-1)^2]`` over a step, (branches, ...); see `dissipated_share`."""
     (t_n, M_n), (t, M) = plane_elastic(X_n, Ci_n), plane_elastic(X, Ci)
 
-    def deviatoric(a: tuple[Array, ...], b: tuple[Array, ...], traces: Array) -> Array:
+    def deviatoric(
+        a: tuple[FloatArray, ...], b: tuple[FloatArray, ...], traces: FloatArray
+    ) -> FloatArray:
         inner = a[0] * b[0] + a[1] * b[2] + a[2] * b[1] + a[3] * b[3] + a[4] * b[4]
         return np.asarray(inner - traces / 3.0)
 
@@ -202,5 +207,5 @@ def plane_dissipated(X_n: Array, Ci_n: Array, X: Array, Ci: Array, h: Array) -> 
     )
 
 
-def _det(A: Array) -> Array:
+def _det(A: FloatArray) -> FloatArray:
     return np.asarray(A[0] * A[1] - A[2] * A[2])

@@ -18,8 +18,9 @@ References
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.checks import require_finite, require_positive
 from materials.hyperelastic_base import (
     MODES,
@@ -29,8 +30,6 @@ from materials.hyperelastic_base import (
     Mode,
     checked_stretch,
 )
-
-Array = NDArray[np.float64]
 
 #: The series in z = c - 1 is used up to z = 0.1 and nu^2 z = 0.5, where its terms fall by ten each.
 _SERIES_END = 0.1
@@ -77,7 +76,7 @@ class Ogden(Hyperelastic):
             terms = [_term(mu, alpha, I1, J) for mu, alpha in zip(self.mu, self.alpha, strict=True)]
             return EnergyDerivatives(*(np.sum(parts, axis=0) for parts in zip(*terms, strict=True)))
 
-    def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+    def nominal_stress(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> FloatArray:
         """Nominal stress [N/mm^2] of a homogeneous test (see `Hyperelastic.nominal_stress`)."""
         lam, t = checked_stretch(stretch), _transverse(mode)
         P = np.zeros_like(lam)
@@ -85,7 +84,7 @@ class Ogden(Hyperelastic):
             P = P + 2.0 * mu / alpha * (lam ** (alpha - 1.0) - lam ** (-t * alpha - 1.0))
         return P
 
-    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> Array:
+    def strain_energy(self, stretch: ArrayLike, mode: Mode = "uniaxial") -> FloatArray:
         """Energy per volume [N/mm^2] of a homogeneous test (see `Hyperelastic.strain_energy`)."""
         lam, t = checked_stretch(stretch), _transverse(mode)
         W = np.zeros_like(lam)
@@ -94,7 +93,7 @@ class Ogden(Hyperelastic):
             W = W + 2.0 * mu / alpha**2 * (powers - 3.0)
         return W
 
-    def log_derivatives(self, e1: Array, e2: Array) -> tuple[Array, Array]:
+    def log_derivatives(self, e1: FloatArray, e2: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Gradient and Hessian of W in two logarithmic stretches (see `Hyperelastic`)."""
         gradient = np.zeros((e1.size, 2))
         hessian = np.zeros((e1.size, 2, 2))
@@ -118,7 +117,7 @@ def _transverse(mode: str) -> float:
     return TRANSVERSE[mode]
 
 
-def _term(mu: float, alpha: float, I1: Array, J: Array) -> EnergyDerivatives:
+def _term(mu: float, alpha: float, I1: FloatArray, J: FloatArray) -> EnergyDerivatives:
     """One term ``k (2 A T(c) + B - 3)``, ``A = J^(alpha/6)``, ``B = J^(-alpha/3)``."""
     inverse = 1.0 / J
     c_1 = 0.5 * inverse
@@ -142,7 +141,7 @@ def _term(mu: float, alpha: float, I1: Array, J: Array) -> EnergyDerivatives:
     )
 
 
-def chebyshev(nu: float, c: ArrayLike) -> tuple[Array, Array, Array]:
+def chebyshev(nu: float, c: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
     """``T_nu(c) = cosh(nu arcosh c)`` with its first and second derivative, for c >= 1 [2]_.
 
     Rounding may put c below 1 by its last digit; the function is smooth there.
@@ -161,7 +160,7 @@ def chebyshev(nu: float, c: ArrayLike) -> tuple[Array, Array, Array]:
     return np.where(near, T, far), np.where(near, T_c, far_c), np.where(near, T_cc, far_cc)
 
 
-def _series(nu: float, z: Array) -> tuple[Array, Array, Array]:
+def _series(nu: float, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Power series of T_nu about c = 1 and its derivatives, by Horner's scheme."""
     weights = [1.0]
     for k in range(_SERIES_TERMS):

@@ -3,22 +3,21 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.hyperelastic import Hyperelastic
 from materials.material import EnergyDerivatives, InPlane
 
-Array = NDArray[np.float64]
 
-
-def invariants(F: ArrayLike) -> tuple[Array, Array]:
+def invariants(F: ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Invariants ``I1 = F:F + 1`` and ``J = det F`` [-] of deformation gradients (..., 2, 2)."""
     F = np.asarray(F, dtype=float)
     xx, xy, yx, yy = F[..., 0, 0], F[..., 0, 1], F[..., 1, 0], F[..., 1, 1]
     return xx * xx + xy * xy + yx * yx + yy * yy + 1.0, xx * yy - xy * yx
 
 
-def cofactor(F: ArrayLike) -> Array:
+def cofactor(F: ArrayLike) -> FloatArray:
     """Cofactor ``dJ/dF = J F^-T`` of deformation gradients (..., 2, 2)."""
     F = np.asarray(F, dtype=float)
     C = np.empty_like(F)
@@ -31,8 +30,8 @@ class PlaneDeformation(NamedTuple):
     """Deformation as a material sees it (`materials.material.Deformation`)."""
 
     C: InPlane
-    I1: Array
-    J: Array
+    I1: FloatArray
+    J: FloatArray
 
 
 def deformation_of(F: ArrayLike) -> PlaneDeformation:
@@ -42,12 +41,12 @@ def deformation_of(F: ArrayLike) -> PlaneDeformation:
     return PlaneDeformation(InPlane(C[..., 0, 0], C[..., 1, 1], C[..., 0, 1]), *invariants(F))
 
 
-def first_piola_kirchhoff(model: Hyperelastic, F: ArrayLike) -> Array:
+def first_piola_kirchhoff(model: Hyperelastic, F: ArrayLike) -> FloatArray:
     """Isochoric first Piola-Kirchhoff stress ``P = 2 W_1 F + W_J cof F`` [N/mm^2], (..., 2, 2)."""
     return stress_of(model.derivatives(*invariants(F)), F)
 
 
-def dP_dF(model: Hyperelastic, F: ArrayLike) -> Array:
+def dP_dF(model: Hyperelastic, F: ArrayLike) -> FloatArray:
     """Tangent of the isochoric stress [N/mm^2].
 
     Parameters
@@ -64,7 +63,7 @@ def dP_dF(model: Hyperelastic, F: ArrayLike) -> Array:
     return stiffness_of(model.derivatives(*invariants(F)), F)
 
 
-def stress_of(W: EnergyDerivatives, F: ArrayLike, S: ArrayLike | None = None) -> Array:
+def stress_of(W: EnergyDerivatives, F: ArrayLike, S: ArrayLike | None = None) -> FloatArray:
     """``P = F (2 W_1 I + S) + W_J cof F`` [N/mm^2], (..., 2, 2).
 
     `S` (3, ...), components 11, 22, 12, are second Piola-Kirchhoff stresses besides.
@@ -76,7 +75,7 @@ def stress_of(W: EnergyDerivatives, F: ArrayLike, S: ArrayLike | None = None) ->
 
 def stiffness_of(
     W: EnergyDerivatives, F: ArrayLike, S: ArrayLike | None = None, D: ArrayLike | None = None
-) -> Array:
+) -> FloatArray:
     """Tangent dP/dF of `stress_of`, (..., 2, 2, 2, 2).
 
     `D` (6, ...) is the symmetric tangent of S by the strains E11, E22, 2 E12: entries 11, 22, 33,
@@ -101,7 +100,7 @@ def stiffness_of(
     return A
 
 
-def cauchy_stress(P: ArrayLike, F: ArrayLike, pressure: ArrayLike = 0.0) -> Array:
+def cauchy_stress(P: ArrayLike, F: ArrayLike, pressure: ArrayLike = 0.0) -> FloatArray:
     """Cauchy stress [N/mm^2] of an isochoric first Piola-Kirchhoff stress and a mean stress.
 
     Parameters
@@ -131,10 +130,10 @@ def cauchy_stress(P: ArrayLike, F: ArrayLike, pressure: ArrayLike = 0.0) -> Arra
     return np.stack(np.broadcast_arrays(xx + mean, yy + mean, mean - xx - yy, xy), axis=-1)
 
 
-def _tensor(components: Array) -> Array:
+def _tensor(components: FloatArray) -> FloatArray:
     """Symmetric tensors (..., 2, 2) of their components 11, 22, 12, shape (3, ...)."""
     return np.moveaxis(components[np.array([[0, 2], [2, 1]])], (0, 1), (-2, -1))
 
 
-def _outer(A: Array, B: Array) -> Array:
+def _outer(A: FloatArray, B: FloatArray) -> FloatArray:
     return A[..., :, :, None, None] * B[..., None, None, :, :]

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.checks import require_finite, require_positive
 from materials.wlf import WLF
 
-Array = NDArray[np.float64]
 Moduli = Literal["long-term", "instantaneous"]
 MODULI: tuple[str, ...] = get_args(Moduli)
 
@@ -77,18 +77,18 @@ class Prony:
         """Share of the elastic law that is left after an infinite time [-]."""
         return 1.0 if self.moduli == "long-term" else 1.0 - sum(self.g)
 
-    def shift_factor(self, T_C: ArrayLike | None) -> Array:
+    def shift_factor(self, T_C: ArrayLike | None) -> FloatArray:
         """Factor a_T of the relaxation times [-]; 1 where no temperature or no shift is given."""
         if T_C is None or self.shift is None:
             return np.array(1.0)
         return np.asarray(10.0 ** self.shift.log10_shift_factor(T_C, self.T_ref_C))
 
-    def relaxation(self, time_s: ArrayLike) -> Array:
+    def relaxation(self, time_s: ArrayLike) -> FloatArray:
         """Shear modulus over G_0 at a time after a small step of strain [-] [1]_."""
         t = np.asarray(time_s, dtype=float)[..., None]
         return np.asarray(self.slow_share + np.sum(self.g * np.exp(-t / self.tau_s), axis=-1))
 
-    def harmonic_moduli(self, omega_rad_per_s: ArrayLike) -> tuple[Array, Array]:
+    def harmonic_moduli(self, omega_rad_per_s: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Storage and loss modulus over G_0 at small harmonic strains [-] [1]_.
 
         Parameters

@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from materials.arrays import FloatArray
 from materials.homogeneous import HomogeneousTest, homogeneous_test
 from materials.hyperelastic_base import EnergyDerivatives, Hyperelastic, Mode
 from materials.material import Deformation, InPlane, Response, StepEnd, Stiffness
@@ -30,8 +31,6 @@ from materials.maxwell import (
 from materials.plane_strain import deformation_of, stiffness_of, stress_of
 from materials.prony import Prony
 from materials.softening import OgdenRoxburgh
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +67,7 @@ class Rubber:
         return self._elastic_factor * self.elastic.initial_shear_modulus
 
     @property
-    def branch_moduli(self) -> Array:
+    def branch_moduli(self) -> FloatArray:
         """Shear moduli of the branches [N/mm^2]."""
         g = self.viscous.g if self.viscous else ()
         return np.asarray(g, dtype=float) * self.elastic.initial_shear_modulus
@@ -83,7 +82,7 @@ class Rubber:
         stretch: ArrayLike,
         mode: Mode = "uniaxial",
         T_C: ArrayLike | None = None,
-    ) -> Array:
+    ) -> FloatArray:
         """Nominal stress over the history of a homogeneous incompressible test.
 
         Parameters
@@ -121,7 +120,7 @@ class Rubber:
     def _elastic_factor(self) -> float:
         return self.viscous.slow_share if self.viscous else 1.0
 
-    def virgin(self, points: tuple[int, ...]) -> Array:
+    def virgin(self, points: tuple[int, ...]) -> FloatArray:
         """State variables (k, *points) of rubber that nothing has happened to.
 
         In this order: W_max of the softening [N/mm^2], if there is one; with branches the isochoric
@@ -135,7 +134,7 @@ class Rubber:
             np.reshape(values, (-1,) + (1,) * len(points)), (len(values), *points)
         ).copy()
 
-    def step(self, state: Array | None, dt: float, T_C: ArrayLike | None = None) -> PlaneStep:
+    def step(self, state: FloatArray | None, dt: float, T_C: ArrayLike | None = None) -> PlaneStep:
         """A time step from the state (k, *points) of the last accepted one.
 
         Parameters
@@ -154,7 +153,7 @@ class Rubber:
 class PlaneStep:
     """A `Rubber` over one time step (see `materials.material`); evaluating changes nothing."""
 
-    def __init__(self, rubber: Rubber, state: Array, dt: float, T_C: ArrayLike | None) -> None:
+    def __init__(self, rubber: Rubber, state: FloatArray, dt: float, T_C: ArrayLike | None) -> None:
         self.rubber, self.state = rubber, state
         n = 0 if rubber.viscous is None else len(rubber.viscous.g)
         shape = (-1,) + (1,) * (state.ndim - 1)
@@ -217,12 +216,12 @@ class PlaneStep:
             stored=stored, state=state, viscous=viscous, damage=consumed, softening=softening
         )
 
-    def first_piola_kirchhoff(self, F: ArrayLike) -> Array:
+    def first_piola_kirchhoff(self, F: ArrayLike) -> FloatArray:
         """Isochoric stress P [N/mm^2] at deformation gradients (..., 2, 2)."""
         response = self.respond(deformation_of(F))
         return stress_of(response.energy, F, response.S)
 
-    def dP_dF(self, F: ArrayLike) -> Array:
+    def dP_dF(self, F: ArrayLike) -> FloatArray:
         """Consistent tangent of `first_piola_kirchhoff` [N/mm^2], (..., 2, 2, 2, 2)."""
         deformation = deformation_of(F)
         response = self.respond(deformation)

@@ -9,13 +9,11 @@ References
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import erf
 
+from materials.arrays import FloatArray
 from materials.checks import require_finite, require_not_negative, require_positive
 from materials.hyperelastic_base import EnergyDerivatives
-
-Array = NDArray[np.float64]
 
 _ROOT_PI = float(np.sqrt(np.pi))
 
@@ -54,7 +52,7 @@ class OgdenRoxburgh:
         require_positive(m=self.m)
         require_not_negative(beta=self.beta)
 
-    def factor(self, W: Array, W_max: Array) -> tuple[Array, Array]:
+    def factor(self, W: FloatArray, W_max: FloatArray) -> tuple[FloatArray, FloatArray]:
         """eta and its derivative by W at fixed W_max; 1 and 0 where W is the maximum.
 
         Parameters
@@ -67,7 +65,7 @@ class OgdenRoxburgh:
         slope = np.where(W_max > W, 2.0 / (_ROOT_PI * self.r * width) * np.exp(-z * z), 0.0)
         return 1.0 - erf(z) / self.r, slope
 
-    def softened(self, energy: EnergyDerivatives, W_max: Array) -> EnergyDerivatives:
+    def softened(self, energy: EnergyDerivatives, W_max: FloatArray) -> EnergyDerivatives:
         """Derivatives of the softened energy, whose stress is eta times the elastic one.
 
         ``W`` of the result is the energy that unloading gives back (`recoverable`).
@@ -82,17 +80,17 @@ class OgdenRoxburgh:
             W_JJ=eta * energy.W_JJ + slope * energy.W_J * energy.W_J,
         )
 
-    def recoverable(self, W: Array, W_max: Array) -> Array:
+    def recoverable(self, W: FloatArray, W_max: FloatArray) -> FloatArray:
         """Energy that unloading from W gives back, the integral of eta from 0 to W [N/mm^2]."""
         width = self.m + self.beta * W_max
         lost = _erf_integral(W_max / width) - _erf_integral((W_max - W) / width)
         return W - width / self.r * lost
 
-    def consumed(self, W_max: Array) -> Array:
+    def consumed(self, W_max: FloatArray) -> FloatArray:
         """Energy that damage has consumed once W_max was reached [N/mm^2]; grows with it."""
         return W_max - self.recoverable(W_max, W_max)
 
 
-def _erf_integral(z: Array) -> Array:
+def _erf_integral(z: FloatArray) -> FloatArray:
     """Integral of the error function from 0 to z, plus ``pi^(-1/2)``."""
     return np.asarray(z * erf(z) + np.exp(-z * z) / _ROOT_PI)

@@ -9,6 +9,7 @@ References
 from dataclasses import dataclass
 
 from materials.checks import require_positive
+from materials.units import KG_PER_M3, KJ_PER_KG_K
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,8 +47,8 @@ class ThermalProperties:
         """Properties from the units of Table 3."""
         return cls(
             conductivity=conductivity_W_per_mK,
-            density=density_kg_per_m3 * 1e-12,
-            specific_heat=specific_heat_kJ_per_kgK * 1e9,
+            density=density_kg_per_m3 * KG_PER_M3,
+            specific_heat=specific_heat_kJ_per_kgK * KJ_PER_KG_K,
         )
 
     @property

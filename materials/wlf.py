@@ -11,11 +11,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from materials.arrays import FloatArray
 from materials.checks import require_positive
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,12 +41,12 @@ class WLF:
     def __post_init__(self) -> None:
         require_positive(d1=self.d1, d2_K=self.d2_K)
 
-    def log10_shift_factor(self, T_C: ArrayLike, T_ref_C: float) -> Array:
+    def log10_shift_factor(self, T_C: ArrayLike, T_ref_C: float) -> FloatArray:
         """Decadic logarithm of the shift factor a_T [-] at T_C with respect to T_ref_C [deg C]."""
         dT, shifted = self._distance(T_C, T_ref_C)
         return -self.d1 * dT / shifted
 
-    def equivalent_velocity(self, v: ArrayLike, T_C: ArrayLike, T_ref_C: float) -> Array:
+    def equivalent_velocity(self, v: ArrayLike, T_C: ArrayLike, T_ref_C: float) -> FloatArray:
         """Velocity at T_ref_C that is equivalent to v at T_C, ``v a_T(T)/a_T(T_ref)``.
 
         Parameters
@@ -59,7 +58,7 @@ class WLF:
         """
         return np.asarray(v, dtype=float) * 10.0 ** self.log10_shift_factor(T_C, T_ref_C)
 
-    def dequivalent_velocity_dT(self, v: ArrayLike, T_C: ArrayLike, T_ref_C: float) -> Array:
+    def dequivalent_velocity_dT(self, v: ArrayLike, T_C: ArrayLike, T_ref_C: float) -> FloatArray:
         """Derivative of `equivalent_velocity` with respect to T_C [mm/(s K)]."""
         _, shifted = self._distance(T_C, T_ref_C)
         slope = -math.log(10.0) * self.d1 * self.d2_K / shifted**2
@@ -78,7 +77,7 @@ class WLF:
             )
         return WLF(d1=self.d1 * self.d2_K / d2, d2_K=d2)
 
-    def _distance(self, T_C: ArrayLike, T_ref_C: float) -> tuple[Array, Array]:
+    def _distance(self, T_C: ArrayLike, T_ref_C: float) -> tuple[FloatArray, FloatArray]:
         dT = np.asarray(T_C, dtype=float) - T_ref_C
         shifted = self.d2_K + dT
         if np.any(shifted <= 0.0):

@@ -19,16 +19,14 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.conductance.heating_rig import Heater, HeatingRig, RigModel
 from calibration.data.tables import Table, read_table
 from calibration.fitting.core import FitResult, Loss, Problem, fit
 from calibration.fitting.provenance import version
 from contact.conductance import ContactSurface, GapConductance, mikic_constant
+from materials.arrays import FloatArray
 from materials.plausible import TEMPERATURE
-
-Array = NDArray[np.float64]
 
 HEATER_COLUMNS: dict[Heater, str] = {"power": "heater_power_W", "temperature": "heater_C"}
 
@@ -68,11 +66,11 @@ class HeatingRecord:
     """
 
     table: Table
-    time: Array
+    time: FloatArray
     heater: Heater
-    drive: Array
+    drive: FloatArray
     names: tuple[str, ...]
-    readings: Array
+    readings: FloatArray
 
 
 def read_heating_record(source: str | Path | pd.DataFrame, rig: HeatingRig) -> HeatingRecord:
@@ -136,7 +134,7 @@ def _check_thermocouples(table: Table, rig: HeatingRig, names: tuple[str, ...]) 
         )
 
 
-def _drive(table: Table, heater: Heater, start_C: float) -> Array:
+def _drive(table: Table, heater: Heater, start_C: float) -> FloatArray:
     column = HEATER_COLUMNS[heater]
     values = table.numbers(column)
     if heater == "temperature":
@@ -166,7 +164,7 @@ class RigPrediction:
     record: HeatingRecord
     names: tuple[str, ...]
 
-    def __call__(self, theta: Array) -> Array:
+    def __call__(self, theta: FloatArray) -> FloatArray:
         """Readings at the times of the record, (n, s) flattened [C]."""
         values = dict(zip(self.names, map(float, theta), strict=True))
         ambient = values.get(AMBIENT, self.rig.ambient_C)
@@ -191,7 +189,7 @@ def simulate_readings(
     loss: float,
     base: float,
     ambient_C: float,
-) -> Array:
+) -> FloatArray:
     """Readings above ambient at the times of a record, (n, s) [K]."""
     time = record.time
     longest = min(float(np.median(np.diff(time))), LARGEST_STEP_S)
@@ -257,7 +255,7 @@ def _problem(predict: RigPrediction, record: HeatingRecord) -> Problem:
     )
 
 
-def _starts(names: tuple[str, ...], rig: HeatingRig, record: HeatingRecord) -> Array:
+def _starts(names: tuple[str, ...], rig: HeatingRig, record: HeatingRecord) -> FloatArray:
     first = {
         AMBIENT: float(record.readings[0].mean()),
         "loss_W_per_m2K": rig.loss_W_per_m2K,
@@ -373,8 +371,8 @@ def synthetic_heating_record(
 
 
 def _schedule(
-    time: Array, heating_s: float, ramp_s: float, heater: Heater, power_W: float, rise_K: float
-) -> Array:
+    time: FloatArray, heating_s: float, ramp_s: float, heater: Heater, power_W: float, rise_K: float
+) -> FloatArray:
     """Heater over time; switched within one row of the record, as the fit takes it."""
     after = time - heating_s
     if heater == "power":

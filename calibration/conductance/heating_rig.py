@@ -30,18 +30,15 @@ from scipy.sparse import coo_matrix, csc_matrix, diags
 from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementQuad1, MeshQuad
 
+from materials.arrays import FloatArray, IntArray
 from materials.thermal import ASPHALT, RUBBER, ThermalProperties
+from materials.units import W_PER_M2_K, WATT
 
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 Heater = Literal["power", "temperature"]
 
 #: Pure copper at room temperature: 398 W/(m K), 8930 kg/m^3, 0.385 kJ/(kg K) (CRC Handbook).
 COPPER = ThermalProperties.from_paper_units(398.0, 8930.0, 0.385)
 
-#: 1 W/(m^2 K) in N/(mm s K), and 1 W in mJ/s.
-W_PER_M2K = 1e-3
-MJ_PER_S = 1e3
 
 #: Coefficient of Alexander's method.
 GAMMA = 1.0 - np.sqrt(0.5)
@@ -166,7 +163,7 @@ def conduction(T, w, parameters):  # type: ignore[no-untyped-def]
     return parameters["k"] * gradients
 
 
-def graded(start: float, end: float, smallest: float, *, ratio: float = 1.25) -> Array:
+def graded(start: float, end: float, smallest: float, *, ratio: float = 1.25) -> FloatArray:
     """Coordinates from start to end whose cells grow away from the start, at most to 1/8 [mm]."""
     length = abs(end - start)
     largest = max(length / 8.0, smallest)
@@ -219,16 +216,16 @@ class RigModel:
         self._offset = {"block": 0, "asphalt": self.block.nvertices}
         self.n = self.block.nvertices + self.asphalt.nvertices
 
-    def _nodes(self, body: str, axis: int, value: float) -> Indices:
+    def _nodes(self, body: str, axis: int, value: float) -> IntArray:
         """Nodes of a body on a line x = value or y = value, ordered along it."""
         p = (self.block if body == "block" else self.asphalt).p
         found = np.flatnonzero(np.isclose(p[axis], value, atol=1e-9))
         return np.asarray(self._offset[body] + found[np.argsort(p[1 - axis][found])])
 
-    def _coordinate(self, nodes: Indices, axis: int) -> Array:
+    def _coordinate(self, nodes: IntArray, axis: int) -> FloatArray:
         return np.asarray(np.concatenate([self.block.p[axis], self.asphalt.p[axis]])[nodes])
 
-    def _lengths(self, nodes: Indices, axis: int) -> Array:
+    def _lengths(self, nodes: IntArray, axis: int) -> FloatArray:
         """Length of boundary each of the ordered nodes stands for [mm]."""
         halves = 0.5 * np.diff(self._coordinate(nodes, axis))
         return np.asarray(np.append(halves, 0.0) + np.append(0.0, halves))
@@ -283,11 +280,11 @@ class RigModel:
     def matrix(self, h: float, loss: float, base: float) -> csc_matrix:
         """Conduction, gap and losses, n x n [N/(s K)] per mm depth; coefficients in W/(m^2 K)."""
         surface = loss * self.free_length + base * self.base_length
-        return (self.conduction + W_PER_M2K * (h * self.gap + diags(surface))).tocsc()
+        return (self.conduction + W_PER_M2_K * (h * self.gap + diags(surface))).tocsc()
 
     # ------------------------------------------------------------------------------- the sensors
 
-    def _interpolation(self, place: Thermocouple) -> tuple[Indices, Array]:
+    def _interpolation(self, place: Thermocouple) -> tuple[IntArray, FloatArray]:
         """Nodes and weights of the bilinear interpolation at a thermocouple."""
         body = "block" if place.y_mm >= 0.0 else "asphalt"
         mesh = self.block if body == "block" else self.asphalt
@@ -305,7 +302,7 @@ class RigModel:
         weights = np.array([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])
         return np.asarray(nodes, dtype=np.int64) + self._offset[body], weights
 
-    def read(self, T: Array, names: tuple[str, ...]) -> Array:
+    def read(self, T: FloatArray, names: tuple[str, ...]) -> FloatArray:
         """Readings (..., sensors) of nodal temperatures (..., n)."""
         readings = []
         for name in names:
@@ -315,7 +312,7 @@ class RigModel:
 
     # ------------------------------------------------------------------------------- solutions
 
-    def steady(self, drive: float, h: float, loss: float, base: float) -> Array:
+    def steady(self, drive: float, h: float, loss: float, base: float) -> FloatArray:
         """Stationary temperature above ambient for a constant heater, (n,) [K].
 
         Parameters
@@ -335,14 +332,14 @@ class RigModel:
 
     def record(
         self,
-        drive: Array,
+        drive: FloatArray,
         dt: float,
         names: tuple[str, ...],
         *,
         h: float,
         loss: float,
         base: float,
-    ) -> Array:
+    ) -> FloatArray:
         """Readings above ambient at equidistant times, from a start at ambient temperature.
 
         Parameters
@@ -378,32 +375,32 @@ class RigModel:
             readings += np.outer(drive, self._top_weight(names))
         return readings
 
-    def _free_part(self, K: csc_matrix) -> tuple[Indices, Array]:
+    def _free_part(self, K: csc_matrix) -> tuple[IntArray, FloatArray]:
         """Unknown nodes, and the load on them for a unit of the heater's drive."""
         if self.heater == "power":
             source = np.zeros(self.n)
             # half of the cross-section carries half of the power
-            share = 0.5 * MJ_PER_S / self.rig.depth_mm
+            share = 0.5 * WATT / self.rig.depth_mm
             source[self.top] = share * self.top_length / self.top_length.sum()
             return np.arange(self.n), source
         free = np.setdiff1d(np.arange(self.n), self.top)
         return free, -np.asarray(K[free][:, self.top].sum(axis=1)).ravel()
 
-    def _pick(self, free: Indices, names: tuple[str, ...]) -> Array:
+    def _pick(self, free: IntArray, names: tuple[str, ...]) -> FloatArray:
         weights = np.zeros((len(names), self.n))
         for row, name in enumerate(names):
             nodes, values = self._sensors[name]
             weights[row, nodes] = values
         return weights[:, free]
 
-    def _top_weight(self, names: tuple[str, ...]) -> Array:
+    def _top_weight(self, names: tuple[str, ...]) -> FloatArray:
         """Share of the prescribed nodes in each reading."""
         return self._pick(self.top, names).sum(axis=1)
 
 
 def _body_matrices(
     mesh: MeshQuad, lower: ThermalProperties, upper: ThermalProperties, in_upper: NDArray[np.bool_]
-) -> tuple[coo_matrix, Array]:
+) -> tuple[coo_matrix, FloatArray]:
     """Conduction matrix and lumped capacity of a mesh of two materials."""
     basis = Basis(mesh, ElementQuad1())
     k = np.where(in_upper, upper.conductivity, lower.conductivity)
@@ -414,6 +411,6 @@ def _body_matrices(
     return K.tocoo(), C.astype(np.float64, copy=False)
 
 
-def _interval(lines: Array, value: float) -> tuple[int, float]:
+def _interval(lines: FloatArray, value: float) -> tuple[int, float]:
     i = int(np.clip(np.searchsorted(lines, value) - 1, 0, len(lines) - 2))
     return i, float((value - lines[i]) / (lines[i + 1] - lines[i]))

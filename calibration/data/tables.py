@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 
 from calibration.data.errors import DataError
 from calibration.data.table_text import read_bytes, read_cells
+from materials.arrays import FloatArray
 from materials.plausible import COLUMNS, Quantity, judge
-
-Array = NDArray[np.float64]
-ABSOLUTE_ZERO_C = -273.15
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +72,7 @@ class Table:
         found = {key: list(lines) for key, lines in said.items() if lines}
         return {"data_file": self.file, "data_sha256": self.sha256, **found}
 
-    def judge(self, column: str, values: Array, quantity: Quantity) -> None:
+    def judge(self, column: str, values: FloatArray, quantity: Quantity) -> None:
         """Refuse impossible numbers and keep unusual ones in `unusual`, by `materials.plausible`.
 
         `values` has an entry per row; `numbers` does this for the columns it knows.
@@ -90,7 +88,7 @@ class Table:
         if line not in self.unusual:
             self.unusual.append(line)
 
-    def numbers(self, column: str, quantity: Quantity | None = None) -> Array:
+    def numbers(self, column: str, quantity: Quantity | None = None) -> FloatArray:
         """Values of a column as finite numbers within the physical range of what they are.
 
         Parameters

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import optimize, stats
 
 from calibration.data.errors import DataError
@@ -20,10 +19,10 @@ from calibration.fitting.minimise import minimise
 from calibration.fitting.parameter_file import write_parameter_file
 from calibration.fitting.problem import Loss, Problem
 from calibration.fitting.uncertainty import correlation_of, uncertainty
+from materials.arrays import FloatArray
 
 __all__ = ["FitResult", "Loss", "Problem", "correlation_of", "fit", "refuse_no_fit"]
 
-Array = NDArray[np.float64]
 
 LEAST_R2 = 0.1  # a curve that explains less of the data's scatter is none,
 CONSTANT = 0.1  # where that scatter is more than this share of the data
@@ -64,7 +63,7 @@ class FitResult:
     names: tuple[str, ...]
     values: dict[str, float]
     stderr: dict[str, float]
-    covariance: Array
+    covariance: FloatArray
     rmse: float
     r2: float
     n_data: int
@@ -76,17 +75,17 @@ class FitResult:
     model: Any = None
     metadata: dict[str, Any] = field(default_factory=dict)
     section: dict[str, dict[str, Any]] = field(default_factory=dict)
-    observed: Array = field(repr=False, default_factory=lambda: np.empty(0))
-    predicted: Array = field(repr=False, default_factory=lambda: np.empty(0))
+    observed: FloatArray = field(repr=False, default_factory=lambda: np.empty(0))
+    predicted: FloatArray = field(repr=False, default_factory=lambda: np.empty(0))
     problem: Problem | None = field(repr=False, default=None)
 
     @property
-    def theta(self) -> Array:
+    def theta(self) -> FloatArray:
         """Fitted parameters (k,) in the order of `names`."""
         return np.array([self.values[name] for name in self.names])
 
     @property
-    def correlation(self) -> Array:
+    def correlation(self) -> FloatArray:
         """Correlation matrix (k, k) of the fitted parameters."""
         return correlation_of(self.covariance)
 
@@ -191,7 +190,7 @@ def refuse_no_fit(result: FitResult, file: str, column: str) -> None:
 
 def fit(
     problem: Problem,
-    starts: Array,
+    starts: FloatArray,
     *,
     fixed: Mapping[str, float] | None = None,
     loss: Loss = "linear",

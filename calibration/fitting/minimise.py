@@ -6,13 +6,11 @@ References
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import optimize
 
 from calibration.fitting.problem import Loss, Problem
 from calibration.fitting.progress import evaluated
-
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 _ENOUGH_TO_SEARCH = 300  # points that the starts are compared on when there are more
 _STAGES = (20_000,)  # points that the best one is refined on before all
@@ -24,7 +22,7 @@ _AGREEMENT = 1e-2  # rough minima whose cost is that close to the lowest count a
 
 
 def minimise(
-    problem: Problem, starts: Array, *, loss: Loss = "linear", noise: float = 0.1
+    problem: Problem, starts: FloatArray, *, loss: Loss = "linear", noise: float = 0.1
 ) -> optimize.OptimizeResult:
     """Best local minimum over all starts, polished by Gauss-Newton steps.
 
@@ -51,7 +49,7 @@ def minimise(
     return _polished(problem, best) if loss == "linear" else best
 
 
-def _distinct(found: list[optimize.OptimizeResult]) -> list[Array]:
+def _distinct(found: list[optimize.OptimizeResult]) -> list[FloatArray]:
     """Starts for the refinement: rough minima, the lowest first, each valley once."""
     distinct: list[optimize.OptimizeResult] = []
     rest: list[optimize.OptimizeResult] = []
@@ -97,7 +95,7 @@ def _descended(problem: Problem, near: optimize.OptimizeResult) -> optimize.Opti
     )
 
 
-def _levenberg_marquardt(problem: Problem, x: Array) -> tuple[Array, Array, bool]:
+def _levenberg_marquardt(problem: Problem, x: FloatArray) -> tuple[FloatArray, FloatArray, bool]:
     """Damped Gauss-Newton steps [1]_ that look at all rows once each; x, residuals, arrival."""
     r = problem.residuals(x)
     cost, damping, k = 0.5 * float(r @ r), 0.0, x.size
@@ -130,7 +128,7 @@ def _levenberg_marquardt(problem: Problem, x: Array) -> tuple[Array, Array, bool
     return x, r, False
 
 
-def _scaled_step(J: Array, r: Array) -> Array:
+def _scaled_step(J: FloatArray, r: FloatArray) -> FloatArray:
     """Gauss-Newton step; a parameter without influence stays."""
     scale = np.linalg.norm(J, axis=0)
     scale[scale == 0.0] = 1.0
@@ -152,7 +150,7 @@ def thinned(problem: Problem, rows: int) -> Problem:
     return problem.subset(np.linspace(0, n - 1, rows).round().astype(np.intp))
 
 
-def least_squares_solution(J: Array, r: Array) -> Array:
+def least_squares_solution(J: FloatArray, r: FloatArray) -> FloatArray:
     """Minimiser of ``|J x - r|``; tall problems are reduced by an orthogonal factorisation."""
     if J.shape[0] > _TALL:
         R = np.asarray(np.linalg.qr(np.column_stack([J, r]), mode="r"))
@@ -161,7 +159,7 @@ def least_squares_solution(J: Array, r: Array) -> Array:
 
 
 def _searched(
-    problem: Problem, starts: Array, loss: Loss, noise: float
+    problem: Problem, starts: FloatArray, loss: Loss, noise: float
 ) -> list[optimize.OptimizeResult]:
     """Rough minima from all starts, the lowest first."""
     if len(starts) <= _REFINED:
@@ -189,7 +187,7 @@ def _solve_linear(problem: Problem) -> optimize.OptimizeResult | None:
 
 def _local(
     problem: Problem,
-    start: Array,
+    start: FloatArray,
     loss: Loss,
     noise: float,
     *,
@@ -200,7 +198,7 @@ def _local(
     inset = np.minimum(1e-8 * np.maximum(1.0, np.abs(start)), 0.25 * width)
     start = np.clip(start, problem.lower + inset, problem.upper - inset)
 
-    def residuals(theta: Array) -> Array:
+    def residuals(theta: FloatArray) -> FloatArray:
         evaluated()
         return problem.residuals(theta)
 

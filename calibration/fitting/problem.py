@@ -7,7 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
+
 Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 
 
@@ -41,29 +42,29 @@ class Problem:
     """
 
     names: tuple[str, ...]
-    predict: Callable[[Array], Array]
-    observed: Array
-    lower: Array
-    upper: Array
-    weights: Array | None = None
-    jacobian: Callable[[Array], Array] | None = None
+    predict: Callable[[FloatArray], FloatArray]
+    observed: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+    weights: FloatArray | None = None
+    jacobian: Callable[[FloatArray], FloatArray] | None = None
     linear: bool = False
     subset: Callable[[NDArray[np.intp]], "Problem"] | None = None
-    canonical: Callable[[Array], Array] | None = None
+    canonical: Callable[[FloatArray], FloatArray] | None = None
     absolute: bool = False
 
-    def residuals(self, theta: Array) -> Array:
+    def residuals(self, theta: FloatArray) -> FloatArray:
         difference = self.predict(theta) - self.observed
         return difference if self.weights is None else self.weights * difference
 
-    def slopes(self, theta: Array) -> Array:
+    def slopes(self, theta: FloatArray) -> FloatArray:
         """Derivatives (n, k) of the residuals."""
         if self.jacobian is None:
             return self._differences(theta)
         J = self.jacobian(theta)
         return J if self.weights is None else self.weights[:, None] * J
 
-    def _differences(self, theta: Array) -> Array:
+    def _differences(self, theta: FloatArray) -> FloatArray:
         r = self.residuals(theta)
         J = np.empty((r.size, theta.size))
         steps = 1e-7 * np.maximum(np.abs(theta), 1e-3)
@@ -80,7 +81,7 @@ class Problem:
         free = np.array([name not in values for name in self.names])
         base = np.array([values.get(name, 0.0) for name in self.names])
 
-        def full(theta: Array) -> Array:
+        def full(theta: FloatArray) -> FloatArray:
             whole = base.copy()
             whole[free] = theta
             return whole

@@ -17,12 +17,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from materials.arrays import FloatArray
 from materials.hyperelastic import MODES, Hyperelastic
-
-Array = NDArray[np.float64]
 
 SCAN = (0.1, 20.0)  # stretches between which an end of stability is looked for
 
@@ -97,7 +95,7 @@ def _inside(name: str, ends: tuple[float, float], low: float, high: float, what:
     return sentences
 
 
-def drucker_margin(model: Hyperelastic, stretch: Array, mode: str) -> Array:
+def drucker_margin(model: Hyperelastic, stretch: FloatArray, mode: str) -> FloatArray:
     """Smaller eigenvalue of the Hessian over the shear modulus [-]; negative where unstable."""
     e = np.log(stretch)
     transverse = {"uniaxial": -0.5 * e, "equibiaxial": e, "planar": np.zeros_like(e)}[mode]
@@ -107,7 +105,7 @@ def drucker_margin(model: Hyperelastic, stretch: Array, mode: str) -> Array:
     return np.asarray((mean - spread) / model.initial_shear_modulus)
 
 
-def ellipticity_margin(model: Hyperelastic, stretch: Array) -> Array:
+def ellipticity_margin(model: Hyperelastic, stretch: FloatArray) -> FloatArray:
     """Slope ``d tau/dk`` over the shear modulus [-] in plane strain; negative where unstable."""
     e = np.log(stretch)
     gradient, H = model.log_derivatives(e, -e)
@@ -135,13 +133,13 @@ def check_stability(model: Hyperelastic, window: dict[str, tuple[float, float]])
     return Stability(drucker=drucker, ellipticity=ellipticity, window=dict(window))
 
 
-def _stable_range(margin: Callable[[Array], Array]) -> tuple[float, float]:
+def _stable_range(margin: Callable[[FloatArray], FloatArray]) -> tuple[float, float]:
     down = _first_end(margin, np.geomspace(1.0, SCAN[0], 600))
     up = _first_end(margin, np.geomspace(1.0, SCAN[1], 600))
     return (0.0 if down is None else down), (np.inf if up is None else up)
 
 
-def _first_end(margin: Callable[[Array], Array], stretch: Array) -> float | None:
+def _first_end(margin: Callable[[FloatArray], FloatArray], stretch: FloatArray) -> float | None:
     values = margin(stretch)
     locked = np.flatnonzero(~np.isfinite(values))
     if locked.size:  # beyond the locking stretch there is no state to be unstable

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from calibration.fitting.minimise import least_squares_solution, thinned
 from calibration.fitting.problem import Problem
-
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 CORRELATION_LIMIT = 0.99
 _SINGULAR = 1e-10  # smallest singular value of the column-scaled Jacobian, relative to the largest
@@ -21,8 +20,8 @@ _ENOUGH_FOR_CURVATURE = 20_000  # points on which the curvature of larger proble
 
 
 def uncertainty(
-    problem: Problem, theta: Array, residuals: Array
-) -> tuple[Array, Array, tuple[str, ...]]:
+    problem: Problem, theta: FloatArray, residuals: FloatArray
+) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
     """Covariance ``s^2 (J^T J)^-1`` [1]_, standard errors and warnings at a minimum.
 
     A parameter at its bound is left out (NaN); one that the data cannot determine has an infinite
@@ -51,14 +50,14 @@ def uncertainty(
     return covariance, np.sqrt(np.diag(covariance)), tuple(warnings)
 
 
-def _variance(problem: Problem, residuals: Array, fitted: int) -> float:
+def _variance(problem: Problem, residuals: FloatArray, fitted: int) -> float:
     """Variance of the weighted residuals: known to be one, or their scatter about the fit."""
     if problem.absolute:
         return 1.0
     return float(residuals @ residuals) / max(residuals.size - fitted, 1)
 
 
-def _inverse_normal_matrix(J: Array) -> tuple[Array, NDArray[np.bool_]]:
+def _inverse_normal_matrix(J: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     """``(J^T J)^-1`` and which parameters take part in a singular direction."""
     scale = np.linalg.norm(J, axis=0)
     empty = scale == 0.0
@@ -72,14 +71,14 @@ def _inverse_normal_matrix(J: Array) -> tuple[Array, NDArray[np.bool_]]:
     return inverse, undetermined
 
 
-def correlation_of(covariance: Array) -> Array:
+def correlation_of(covariance: FloatArray) -> FloatArray:
     """Correlation matrix of a covariance matrix; NaN where a variance is not finite."""
     with np.errstate(invalid="ignore", divide="ignore"):
         error = np.sqrt(np.diag(covariance))
         return covariance / np.outer(error, error)
 
 
-def _correlation_warnings(names: tuple[str, ...], covariance: Array) -> list[str]:
+def _correlation_warnings(names: tuple[str, ...], covariance: FloatArray) -> list[str]:
     correlation = correlation_of(covariance)
     return [
         f"{names[i]} and {names[j]} are correlated by {correlation[i, j]:+.4f}: "
@@ -91,7 +90,7 @@ def _correlation_warnings(names: tuple[str, ...], covariance: Array) -> list[str
 
 
 def _curvature_warnings(
-    problem: Problem, theta: Array, residuals: Array, covariance: Array
+    problem: Problem, theta: FloatArray, residuals: FloatArray, covariance: FloatArray
 ) -> list[str]:
     """Name the parameters whose standard error a straight tangent does not justify.
 
@@ -124,7 +123,9 @@ def _curvature_warnings(
     ]
 
 
-def _for_curvature(problem: Problem, theta: Array, least: float) -> tuple[Problem, float, float]:
+def _for_curvature(
+    problem: Problem, theta: FloatArray, least: float
+) -> tuple[Problem, float, float]:
     """The problem, its least sum of squares, and how many times it stands for.
 
     Of very many points some stand for all: on the fitted curve itself, whose minimum they share.
@@ -136,7 +137,7 @@ def _for_curvature(problem: Problem, theta: Array, least: float) -> tuple[Proble
     return on_curve, 0.0, problem.observed.size / small.observed.size
 
 
-def _refitted(problem: Problem, k: int, theta: Array) -> float:
+def _refitted(problem: Problem, k: int, theta: FloatArray) -> float:
     """Sum of squares with the k-th parameter held, the others after a few Gauss-Newton steps."""
     if np.any(theta < problem.lower) or np.any(theta > problem.upper):
         return float("inf")

@@ -9,11 +9,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction
-
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 HUEMER_SCALE = 0.9203  # Table 2's a, the normalisation of the fit
 
@@ -30,11 +28,13 @@ class FrictionCurve(ABC):
         return fixed
 
     @abstractmethod
-    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+    def curve(
+        self, theta: FloatArray, p: FloatArray, v: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """mu (n,), its derivatives (n, k) by the parameters, and its derivative by ln v (n,)."""
 
     @abstractmethod
-    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+    def starts(self, p: FloatArray, v: FloatArray, mu: FloatArray, count: int) -> FloatArray:
         """Starting points (count, k)."""
 
     @abstractmethod
@@ -47,13 +47,15 @@ class _Exponential(FrictionCurve):
     lower = (1e-9, -5.0, -5.0)
     upper = (np.inf, 5.0, 5.0)
 
-    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+    def curve(
+        self, theta: FloatArray, p: FloatArray, v: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         A, B, C = theta
         shape = p**B * v**C
         mu = A * shape
         return mu, np.stack([shape, mu * np.log(p), mu * np.log(v)], axis=1), C * mu
 
-    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+    def starts(self, p: FloatArray, v: FloatArray, mu: FloatArray, count: int) -> FloatArray:
         known = mu > 0.0
         columns = np.stack([np.ones(known.sum()), np.log(p[known]), np.log(v[known])], axis=1)
         lnA, B, C = np.linalg.lstsq(columns, np.log(mu[known]), rcond=None)[0]
@@ -74,7 +76,9 @@ class _Huemer(FrictionCurve):
         scaled = any(fixed.get(name) for name in ("alpha", "beta", "a", "b", "c"))
         return fixed if scaled else {"a": HUEMER_SCALE, **fixed}
 
-    def curve(self, theta: Array, p: Array, v: Array) -> tuple[Array, Array, Array]:
+    def curve(
+        self, theta: FloatArray, p: FloatArray, v: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         alpha, beta, n, inverse_m, a, b, c = theta
         log_p, log_v = np.log(p), np.log(v)
         s = np.exp(-inverse_m * log_v)
@@ -89,7 +93,7 @@ class _Huemer(FrictionCurve):
         )  # fmt: skip
         return mu, J, -inverse_m * by_s
 
-    def starts(self, p: Array, v: Array, mu: Array, count: int) -> Array:
+    def starts(self, p: FloatArray, v: FloatArray, mu: FloatArray, count: int) -> FloatArray:
         a = HUEMER_SCALE
         spread = max(2, round(np.sqrt(count)))
         points = []

@@ -8,8 +8,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.data.tables import Table, read_table
-
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 COLUMNS = ("p_N_per_mm2", "v_mm_per_s", "mu")
 
@@ -27,10 +26,10 @@ class FrictionData:
     table : Table
     """
 
-    p: Array
-    v: Array
-    mu: Array
-    T: Array | None
+    p: FloatArray
+    v: FloatArray
+    mu: FloatArray
+    T: FloatArray | None
     table: Table
 
     def at(self, rows: NDArray[np.intp]) -> "FrictionData":

@@ -13,7 +13,6 @@ from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data.errors import DataError
 from calibration.fitting.core import FitResult, Loss, Problem, fit, refuse_no_fit
@@ -22,9 +21,8 @@ from calibration.fitting.provenance import version
 from calibration.friction.curves import HUEMER_SCALE, LAWS, FrictionCurve
 from calibration.friction.data import FrictionData, read_friction
 from contact.friction import FrictionLaw, shifted
+from materials.arrays import FloatArray
 from materials.wlf import WLF
-
-Array = NDArray[np.float64]
 
 _SCALED = [0, 1, 4, 5, 6]  # places of alpha, beta, a, b, c
 _POINTS_OF_THE_STARTS = 2_000  # points that starts are made from
@@ -132,7 +130,7 @@ def _problem_at(
     dT = data.T - T_ref_C
     k = len(form.names)
 
-    def curve(theta: Array) -> tuple[Array, Array]:
+    def curve(theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         d1, d2 = theta[k:]
         reached = d2 + dT
         v = data.v * 10.0 ** (-d1 * dT / reached)
@@ -153,13 +151,15 @@ def _problem_at(
     )
 
 
-def _shifted_speed(data: FrictionData, wlf: WLF | None, T_ref_C: float) -> Array:
+def _shifted_speed(data: FrictionData, wlf: WLF | None, T_ref_C: float) -> FloatArray:
     if wlf is None or data.T is None:
         return data.v
     return wlf.equivalent_velocity(data.v, data.T, T_ref_C)
 
 
-def _starts(form: FrictionCurve, data: FrictionData, wlf: Any, T_ref_C: float, count: int) -> Array:
+def _starts(
+    form: FrictionCurve, data: FrictionData, wlf: Any, T_ref_C: float, count: int
+) -> FloatArray:
     if wlf != "fit":
         return form.starts(data.p, _shifted_speed(data, wlf, T_ref_C), data.mu, count)
     points = []
@@ -227,7 +227,7 @@ def _completed(
     )
 
 
-def _negative_warnings(law: FrictionLaw, data: FrictionData, speed: Array) -> tuple[str, ...]:
+def _negative_warnings(law: FrictionLaw, data: FrictionData, speed: FloatArray) -> tuple[str, ...]:
     """Where the law gives no friction or less: refused at the data, a warning beyond them.
 
     Pressures and speeds are those of tread blocks and their edges.
@@ -258,7 +258,7 @@ def _normalisation(result: FitResult) -> str:
     return ", ".join(f"{name} = {value:g}" for name, value in held.items())
 
 
-def _floors(data: FrictionData, speed: Array) -> dict[str, float]:
+def _floors(data: FrictionData, speed: FloatArray) -> dict[str, float]:
     """Floors of the law: the usual ones, or lower where the data reach below them."""
     return {"p_min": min(1e-3, float(data.p.min())), "v_min": min(1.0, float(speed.min()))}
 

@@ -19,8 +19,8 @@ from calibration.data.tables import Table, read_table
 from fem.case.case import Case
 from fem.case.errors import CaseError
 from fem.results.surface_profile import EDGE_ZONE, interior_peak
+from materials.arrays import FloatArray
 
-Array = NDArray[np.float64]
 #: What of a measured profile is compared: every point, or its highest interior temperature.
 ProfileUse = Literal["whole", "peak"]
 
@@ -58,9 +58,9 @@ class Condition:
     of_contact: bool
     velocity: float
     rows: NDArray[np.intp]
-    X: Array | None
-    observed: Array
-    sigma: Array | None
+    X: FloatArray | None
+    observed: FloatArray
+    sigma: FloatArray | None
 
     @property
     def name(self) -> str:
@@ -68,7 +68,7 @@ class Condition:
         return f"p = {self.pressure:g} N/mm^2, v = {self.velocity:g} mm/s"
 
     @property
-    def weights(self) -> Array:
+    def weights(self) -> FloatArray:
         """Factors of the residuals (n,) [1/K]; one where no deviation is known."""
         return np.ones(self.observed.size) if self.sigma is None else 1.0 / self.sigma
 
@@ -171,7 +171,7 @@ def _check_loading(table: Table, pressure: str, case: Case) -> None:
             table.refuse_at(first, column, error.found, error.expected)
 
 
-def _temperatures(table: Table, column: str, case: Case) -> Array:
+def _temperatures(table: Table, column: str, case: Case) -> FloatArray:
     T, ambient = table.numbers(column), case.heat.ambient_C
     if column == "T_max_C":
         table.require_all(
@@ -214,7 +214,7 @@ def _with_profile(
     return replace(_at_rows(condition, whole, T), X=X[whole])
 
 
-def _at_rows(condition: Condition, rows: NDArray[np.intp], observed: Array) -> Condition:
+def _at_rows(condition: Condition, rows: NDArray[np.intp], observed: FloatArray) -> Condition:
     """The condition with other observations, which stand in some of its rows."""
     sigma = condition.sigma
     if sigma is not None:
@@ -229,7 +229,7 @@ def _runs(table: Table, rows: NDArray[np.intp]) -> list[NDArray[np.intp]]:
     return [rows[names == name] for name in dict.fromkeys(names.tolist())]
 
 
-def _check_profile(table: Table, place: str, X: Array, rows: NDArray[np.intp]) -> None:
+def _check_profile(table: Table, place: str, X: FloatArray, rows: NDArray[np.intp]) -> None:
     if len(rows) < FEWEST_POINTS:
         table.refuse_at(
             int(rows[-1]), place, f"{len(rows)} points of a profile", f"at least {FEWEST_POINTS}"

@@ -29,7 +29,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.fitting.core import FitResult, Problem, fit
 from calibration.fitting.provenance import version
@@ -50,8 +49,7 @@ from contact.partition import HeatPartition
 from fem.case.case import Case
 from fem.case.errors import CaseError
 from fem.files.program_version import program_version
-
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 NAMES = ("prefactor", "exponent")
 LOWER, UPPER = np.array([1e-4, -3.0]), np.array([10.0, 3.0])
@@ -241,7 +239,7 @@ def _law(
         platens = [slide.next_platen for slide in slides]
 
 
-def _start(found: Sequence[Simulated]) -> Array:
+def _start(found: Sequence[Simulated]) -> FloatArray:
     """Line through the discrete estimates over the pressure, both logarithmic [1]_."""
     p = np.log([estimate.slide.contact_pressure for estimate in found])
     kappa = np.log([estimate.kappa for estimate in found])
@@ -252,12 +250,12 @@ def _start(found: Sequence[Simulated]) -> Array:
 
 
 def _fit_law(
-    data: PartitionData, rounds: Sequence[Sequence[Conditioned]], start: Array
+    data: PartitionData, rounds: Sequence[Sequence[Conditioned]], start: FloatArray
 ) -> FitResult:
     """Fit the law to the measurements through what the slides predict for other laws."""
     like = rounds[0][0].law
 
-    def predict(theta: Array) -> Array:
+    def predict(theta: FloatArray) -> FloatArray:
         law = power(theta, like)
         shares = _nearness(theta, rounds)
         return sum(
@@ -278,11 +276,11 @@ def _fit_law(
     return fit(problem, np.array(starts))
 
 
-def _parameters(slides: Sequence[Conditioned]) -> Array:
+def _parameters(slides: Sequence[Conditioned]) -> FloatArray:
     return np.array([slides[0].law.prefactor, slides[0].law.exponent])
 
 
-def _nearness(theta: Array, rounds: Sequence[Sequence[Conditioned]]) -> Array:
+def _nearness(theta: FloatArray, rounds: Sequence[Sequence[Conditioned]]) -> FloatArray:
     """Shares of the rounds of simulations in a prediction, by the distance of their laws.
 
     The distance is the largest difference of ln kappa over the pressures. The prediction is then

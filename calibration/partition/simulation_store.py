@@ -10,17 +10,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fem.case.case import Case
 from fem.results.columns import SURFACE
 from fem.results.outcome import OK
 from fem.results.result import SURFACE_FILE, read_summary, read_table
 from fem.results.run_folder import RunFolder
 from fem.sweeps import StudyError, simulate_missing
+from materials.arrays import FloatArray
 
-Array = NDArray[np.float64]
 SIMULATIONS_FOLDER = "simulations"
 
 
@@ -41,9 +38,9 @@ class Slide:
         Mean over the sliding phase [N/mm^2].
     """
 
-    X: Array
-    T: Array
-    pressure: Array
+    X: FloatArray
+    T: FloatArray
+    pressure: FloatArray
     mean_contact_pressure: float
 
 

@@ -14,8 +14,7 @@ from calibration.partition.simulation_store import SimulationStore, Slide
 from contact.partition import HeatPartition
 from fem.case.case import Case
 from fem.results.surface_profile import EDGE_ZONE, interior_peak
-
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 #: Smallest partition that is tried.
 SMALLEST = 0.01
@@ -30,7 +29,7 @@ def constant(kappa: float, like: HeatPartition) -> HeatPartition:
     return replace(like, prefactor=kappa, exponent=0.0)
 
 
-def power(theta: Array, like: HeatPartition) -> HeatPartition:
+def power(theta: FloatArray, like: HeatPartition) -> HeatPartition:
     """Power law of eq. (14) from prefactor and exponent; cap and kind of pressure of another."""
     return replace(like, prefactor=float(theta[0]), exponent=float(theta[1]))
 
@@ -93,11 +92,11 @@ class Conditioned:
         return self.platen * self.pressure_scale
 
     @property
-    def simulated(self) -> Array:
+    def simulated(self) -> FloatArray:
         """Temperatures of the simulation where the observations are (n,) [deg C]."""
         return self._observations(np.ones_like(self.slide.T))
 
-    def predicted(self, law: HeatPartition, scale: float | None = None) -> Array:
+    def predicted(self, law: HeatPartition, scale: float | None = None) -> FloatArray:
         """Observations (n,) [deg C] to be expected with another law.
 
         Every point's rise changes by the m-th power of its partition, and of the pressure where
@@ -138,7 +137,7 @@ class Conditioned:
         capped = law.uncapped(law.governing(p, self.contact_pressure)) > law.cap
         return float(p[capped].sum() / max(float(p.sum()), 1e-12))
 
-    def _observations(self, ratio: Array) -> Array:
+    def _observations(self, ratio: FloatArray) -> FloatArray:
         """Observations when the partition of every point changes by a factor (m,)."""
         slide, place = self.slide, self.condition.X
         T = self.ambient + (slide.T - self.ambient) * ratio**self.m

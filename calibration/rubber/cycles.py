@@ -16,7 +16,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray
+
 Branch = Literal["both", "load", "unload"]
 BRANCHES = ("load", "unload")
 
@@ -25,7 +26,7 @@ _SAME_LEVEL = 0.02  # strain amplitudes within 2 % of the highest count as the h
 
 
 def label_cycles(
-    stretch: Array, *, hysteresis: float = 0.02
+    stretch: FloatArray, *, hysteresis: float = 0.02
 ) -> tuple[NDArray[np.int64], NDArray[np.str_]]:
     """Number the cycles of a recorded test and name their branches.
 
@@ -60,7 +61,7 @@ def label_cycles(
     return cycle, branch
 
 
-def is_in_order_of_recording(stretch: Array) -> bool:
+def is_in_order_of_recording(stretch: FloatArray) -> bool:
     """Whether the stretch runs up and down as in a test, rather than from row to row at random.
 
     Nor are tables sorted by the stretch recorded, in which a loop has two rows at every stretch.
@@ -74,14 +75,14 @@ def is_in_order_of_recording(stretch: Array) -> bool:
     return len(turns) - 2 <= stretch.size / 3.0
 
 
-def _passes_through(stretch: Array) -> bool:
+def _passes_through(stretch: FloatArray) -> bool:
     """Whether the stretch goes from compression to tension (or back) without a turn."""
     steps = np.diff(stretch)
     one_way = bool(np.all(steps >= 0.0) or np.all(steps <= 0.0))
     return one_way and bool(stretch.min() < 1.0 < stretch.max())
 
 
-def _turning_points(values: Array, threshold: float) -> list[int]:
+def _turning_points(values: FloatArray, threshold: float) -> list[int]:
     """Indices where the direction changes by more than the threshold, with both ends."""
     turns, extreme, direction = [0], 0, 0
     strain = values.tolist()  # plain numbers: this loop is the slow part of a million rows
@@ -99,7 +100,7 @@ def _turning_points(values: Array, threshold: float) -> list[int]:
 
 
 def last_full_cycle(
-    stretch: Array, cycle: NDArray[np.int64], branch: NDArray[np.str_] | None
+    stretch: FloatArray, cycle: NDArray[np.int64], branch: NDArray[np.str_] | None
 ) -> int | None:
     """Number of the last full cycle at the highest strain level.
 
@@ -128,7 +129,7 @@ def last_full_cycle(
 
 
 def in_last_full_cycle(
-    stretch: Array,
+    stretch: FloatArray,
     mode: NDArray[np.str_],
     cycle: NDArray[np.int64],
     branch: NDArray[np.str_] | None,

@@ -25,8 +25,8 @@ from calibration.rubber.stress_checks import STRESS, check_modulus
 from calibration.rubber.stress_data import Cycle, StressData, select_data
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
 from calibration.rubber.stress_zero import Zero
+from materials.arrays import FloatArray
 
-Array = NDArray[np.float64]
 Weighting = Literal["equal", "modes", "relative"]
 
 #: Options that choose the points of a fit.
@@ -111,7 +111,7 @@ def _narrowed(
     law: StressModel,
     problem: Problem,
     kin: Kinematics,
-    begin: Array,
+    begin: FloatArray,
     held: Mapping[str, float],
     loss: Loss,
     noise: float,
@@ -210,7 +210,7 @@ def _require_points(
         )
 
 
-def _weights(data: StressData, kind: Weighting) -> Array | None:
+def _weights(data: StressData, kind: Weighting) -> FloatArray | None:
     if kind == "equal":
         return None
     if kind == "modes":

@@ -7,10 +7,9 @@ from scipy.stats import spearmanr
 from calibration.data.errors import DataError
 from calibration.data.tables import Table
 from calibration.rubber.stress_models import Kinematics
+from materials.arrays import FloatArray
 from materials.hyperelastic_base import Hyperelastic
 from materials.plausible import SHEAR_MODULUS, judge
-
-Array = NDArray[np.float64]
 
 STRESS = "nominal_stress_N_per_mm2"
 _AT_REST = 2e-3  # strain below which a row is undeformed
@@ -18,7 +17,9 @@ _SURELY = 0.9  # rank correlation that scatter does not bring about
 _PRELOAD = 0.05  # share of the largest stress at rest that is worth a word
 
 
-def check_points(source: Table, stretch: Array, stress: Array, mode: NDArray[np.str_]) -> None:
+def check_points(
+    source: Table, stretch: FloatArray, stress: FloatArray, mode: NDArray[np.str_]
+) -> None:
     """Refuse strains in the column of stretches, as fractions or in per cent."""
     small = stretch < 0.95
     pulled = small & (stress > 0.0)
@@ -31,7 +32,7 @@ def check_points(source: Table, stretch: Array, stress: Array, mode: NDArray[np.
 
 
 def _refuse_amounts_of_compression(
-    source: Table, stretch: Array, stress: Array, mode: NDArray[np.str_]
+    source: Table, stretch: FloatArray, stress: FloatArray, mode: NDArray[np.str_]
 ) -> None:
     """Compression given as 0.1, 0.2, 0.3 has a stress that grows towards 1, where it should end."""
     for name in np.unique(mode):
@@ -45,7 +46,9 @@ def _refuse_amounts_of_compression(
                 source.refuse_at(i, "stretch", found, expected)
 
 
-def _refuse_percent(source: Table, stretch: Array, stress: Array, mode: NDArray[np.str_]) -> None:
+def _refuse_percent(
+    source: Table, stretch: FloatArray, stress: FloatArray, mode: NDArray[np.str_]
+) -> None:
     """Small strains in per cent (2, 4, 6 ...) can be told from stretches by their stress only.
 
     They are strains where the rows stay clear of the undeformed state as stretches, a neo-Hookean
@@ -66,14 +69,16 @@ def _refuse_percent(source: Table, stretch: Array, stress: Array, mode: NDArray[
         )  # fmt: skip
 
 
-def _neo_hooke(stretch: Array, stress: Array, mode: NDArray[np.str_]) -> tuple[float, float]:
+def _neo_hooke(
+    stretch: FloatArray, stress: FloatArray, mode: NDArray[np.str_]
+) -> tuple[float, float]:
     """Shear modulus of the best neo-Hookean curve and its sum of squares."""
     unit = 0.5 * Kinematics.of(stretch, mode).k1
     G = float(unit @ stress) / float(unit @ unit)
     return G, float(np.sum((G * unit - stress) ** 2))
 
 
-def check_zero(source: Table, stretch: Array, stress: Array) -> None:
+def check_zero(source: Table, stretch: FloatArray, stress: FloatArray) -> None:
     """Say that an undeformed rubber is under stress: a preload, or a shifted zero."""
     rest = np.abs(stretch - 1.0) < _AT_REST
     loaded = rest & (np.abs(stress) > _PRELOAD * np.abs(stress).max())
@@ -85,7 +90,7 @@ def check_zero(source: Table, stretch: Array, stress: Array) -> None:
         )
 
 
-def check_sign(used: Table, stretch: Array, stress: Array) -> None:
+def check_sign(used: Table, stretch: FloatArray, stress: FloatArray) -> None:
     """Refuse data whose stress mostly points against the stretch."""
     against = (stretch - 1.0) * stress < 0.0
     if np.count_nonzero(against) > 0.5 * stretch.size:

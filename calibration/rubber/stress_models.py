@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from fem.case.rubber import CONSTANTS
+from materials.arrays import FloatArray
 from materials.hyperelastic import (
     MODES,
     ArrudaBoyce,
@@ -34,8 +35,6 @@ from materials.hyperelastic import (
 )
 from materials.hyperelastic_base import TRANSVERSE
 from materials.ogden import Ogden
-
-Array = NDArray[np.float64]
 
 _CHAIN = np.array([1 / 2, 1 / 20, 11 / 1050, 19 / 7000, 519 / 673750])
 _CLOSEST_TO_LOCKING = 0.9999
@@ -51,15 +50,15 @@ class Kinematics:
     ``lam^-t`` (0.5 uniaxial, 2 equibiaxial, 1 planar). All arrays have the shape (n,).
     """
 
-    lam: Array
-    I1b: Array
-    I2b: Array
-    k1: Array
-    k2: Array
-    transverse: Array
+    lam: FloatArray
+    I1b: FloatArray
+    I2b: FloatArray
+    k1: FloatArray
+    k2: FloatArray
+    transverse: FloatArray
 
     @classmethod
-    def of(cls, stretch: Array, mode: NDArray[np.str_]) -> "Kinematics":
+    def of(cls, stretch: FloatArray, mode: NDArray[np.str_]) -> "Kinematics":
         """Kinematics of stretches (n,) in the modes (n,)."""
         columns = np.empty((4, stretch.size))
         transverse = np.empty(stretch.size)
@@ -84,19 +83,21 @@ class StressModel(ABC):
     held: dict[str, float] = {}  # noqa: RUF012
 
     @abstractmethod
-    def stress(self, theta: Array, kin: Kinematics) -> Array:
+    def stress(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         """Nominal stress (n,) [N/mm^2]."""
 
     @abstractmethod
-    def jacobian(self, theta: Array, kin: Kinematics) -> Array:
+    def jacobian(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         """Derivatives (n, k) of the stress with respect to the parameters."""
 
     @abstractmethod
-    def bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         """Lower and upper bounds (k,) of the parameters."""
 
     @abstractmethod
-    def starts(self, kin: Kinematics, P: Array, count: int, rng: np.random.Generator) -> Array:
+    def starts(
+        self, kin: Kinematics, P: FloatArray, count: int, rng: np.random.Generator
+    ) -> FloatArray:
         """Starting points (count, k) for the stresses P (n,)."""
 
     @abstractmethod
@@ -108,7 +109,7 @@ class StressModel(ABC):
         known = [key for part in CONSTANTS[model] for key in part]
         return {"model": model, **{key: values[key.removesuffix("_N_per_mm2")] for key in known}}
 
-    def ordered(self, theta: Array) -> Array:
+    def ordered(self, theta: FloatArray) -> FloatArray:
         """Parameters (k,) with terms that may change places in the order that makes them unique."""
         return theta
 
@@ -116,7 +117,7 @@ class StressModel(ABC):
         """Whether the parameters make an energy; where bounds of each alone cannot say so."""
         return True
 
-    def narrow_bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def narrow_bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         """Bounds for a second fit when the first one is not admissible."""
         return self.bounds(kin)
 
@@ -127,16 +128,18 @@ class _LinearModel(StressModel):
     linear = True
 
     @abstractmethod
-    def columns(self, kin: Kinematics) -> tuple[Array, ...]:
+    def columns(self, kin: Kinematics) -> tuple[FloatArray, ...]:
         """Stress (n,) of each parameter at the value one."""
 
-    def stress(self, theta: Array, kin: Kinematics) -> Array:
+    def stress(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         return np.einsum("kn,k->n", np.array(self.columns(kin)), theta)
 
-    def jacobian(self, theta: Array, kin: Kinematics) -> Array:
+    def jacobian(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         return np.stack(self.columns(kin), axis=1)
 
-    def starts(self, kin: Kinematics, P: Array, count: int, rng: np.random.Generator) -> Array:
+    def starts(
+        self, kin: Kinematics, P: FloatArray, count: int, rng: np.random.Generator
+    ) -> FloatArray:
         moduli, *_ = np.linalg.lstsq(self.jacobian(np.empty(0), kin), P, rcond=None)
         return np.asarray(moduli[None, :], dtype=float)
 
@@ -144,10 +147,10 @@ class _LinearModel(StressModel):
 class NeoHookeStress(_LinearModel):
     names = ("G",)
 
-    def columns(self, kin: Kinematics) -> tuple[Array, ...]:
+    def columns(self, kin: Kinematics) -> tuple[FloatArray, ...]:
         return (0.5 * kin.k1,)
 
-    def bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         return np.array([1e-9]), np.array([np.inf])
 
     def build(self, values: dict[str, float]) -> NeoHooke:
@@ -157,17 +160,17 @@ class NeoHookeStress(_LinearModel):
 class MooneyRivlinStress(_LinearModel):
     names = ("C10", "C01")
 
-    def columns(self, kin: Kinematics) -> tuple[Array, ...]:
+    def columns(self, kin: Kinematics) -> tuple[FloatArray, ...]:
         return kin.k1, kin.k2
 
-    def bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         # Either constant may be negative as long as the shear modulus is not.
         return np.full(2, -np.inf), np.full(2, np.inf)
 
     def admissible(self, values: dict[str, float]) -> bool:
         return values["C10"] + values["C01"] > 0.0
 
-    def narrow_bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def narrow_bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         return np.array([1e-9, 0.0]), np.full(2, np.inf)
 
     def build(self, values: dict[str, float]) -> MooneyRivlin:
@@ -177,11 +180,11 @@ class MooneyRivlinStress(_LinearModel):
 class YeohStress(_LinearModel):
     names = ("C10", "C20", "C30")
 
-    def columns(self, kin: Kinematics) -> tuple[Array, ...]:
+    def columns(self, kin: Kinematics) -> tuple[FloatArray, ...]:
         x = kin.I1b - 3.0
         return kin.k1, 2.0 * x * kin.k1, 3.0 * x * x * kin.k1
 
-    def bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         return np.array([1e-9, -np.inf, -np.inf]), np.full(3, np.inf)
 
     def build(self, values: dict[str, float]) -> Yeoh:
@@ -197,7 +200,7 @@ class VanDerWaalsStress(StressModel):
     names = ("G", "lambda_m", "a", "beta")
     held = {"beta": 0.0}  # noqa: RUF012
 
-    def _parts(self, theta: Array, kin: Kinematics) -> tuple[Array, ...]:
+    def _parts(self, theta: FloatArray, kin: Kinematics) -> tuple[FloatArray, ...]:
         _, lambda_m, _, beta = theta
         limit = lambda_m**2 - 3.0
         x = np.maximum((1.0 - beta) * kin.I1b + beta * kin.I2b - 3.0, 0.0)
@@ -208,11 +211,11 @@ class VanDerWaalsStress(StressModel):
         K = (1.0 - beta) * kin.k1 + beta * kin.k2
         return K, x, eta, network, steep, np.sqrt(0.5 * x)
 
-    def stress(self, theta: Array, kin: Kinematics) -> Array:
+    def stress(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         K, _, _, network, _, root = self._parts(theta, kin)
         return 0.5 * theta[0] * K * (network - theta[2] * root)
 
-    def jacobian(self, theta: Array, kin: Kinematics) -> Array:
+    def jacobian(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         G, lambda_m, a, _ = theta
         K, x, eta, network, steep, root = self._parts(theta, kin)
         limit = lambda_m**2 - 3.0
@@ -225,11 +228,13 @@ class VanDerWaalsStress(StressModel):
             [0.5 * K * slope, -half * steep * eta * lambda_m / limit, -half * root, d_beta], axis=1
         )
 
-    def bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         least = np.sqrt(min(kin.I1b.max(), kin.I2b.max())) * (1.0 + 1e-6)
         return np.array([1e-9, max(least, 1.7321), 0.0, 0.0]), np.array([np.inf, 1e3, 1e3, 1.0])
 
-    def starts(self, kin: Kinematics, P: Array, count: int, rng: np.random.Generator) -> Array:
+    def starts(
+        self, kin: Kinematics, P: FloatArray, count: int, rng: np.random.Generator
+    ) -> FloatArray:
         least = self.bounds(kin)[0][1]
         points = []
         for lambda_m in least * (1.0 + np.geomspace(5e-3, 3.0, count)):
@@ -246,7 +251,7 @@ class VanDerWaalsStress(StressModel):
 class ArrudaBoyceStress(StressModel):
     names = ("C1", "lambda_m")
 
-    def _slopes(self, q: float, I1b: Array) -> tuple[Array, Array]:
+    def _slopes(self, q: float, I1b: FloatArray) -> tuple[FloatArray, FloatArray]:
         """dW/dI1b for C1 = 1 and its derivative with respect to ``q = lambda_m^-2``."""
         order = np.arange(1, 6)
         weights = _CHAIN * order
@@ -256,17 +261,19 @@ class ArrudaBoyceStress(StressModel):
             powers[:, 1:] @ (weights[1:] * (order[1:] - 1) * q ** (order[1:] - 2)),
         )
 
-    def stress(self, theta: Array, kin: Kinematics) -> Array:
+    def stress(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         return theta[0] * kin.k1 * self._slopes(theta[1] ** -2, kin.I1b)[0]
 
-    def jacobian(self, theta: Array, kin: Kinematics) -> Array:
+    def jacobian(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         slope, slope_q = self._slopes(theta[1] ** -2, kin.I1b)
         return kin.k1[:, None] * np.stack([slope, -2.0 * theta[0] * theta[1] ** -3 * slope_q], 1)
 
-    def bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         return np.array([1e-9, 1.0 + 1e-6]), np.array([np.inf, 1e3])
 
-    def starts(self, kin: Kinematics, P: Array, count: int, rng: np.random.Generator) -> Array:
+    def starts(
+        self, kin: Kinematics, P: FloatArray, count: int, rng: np.random.Generator
+    ) -> FloatArray:
         points = []
         for lambda_m in np.geomspace(1.05, 30.0, count):
             column = kin.k1 * self._slopes(lambda_m**-2, kin.I1b)[0]
@@ -287,7 +294,7 @@ class OgdenStress(StressModel):
         self.terms = terms
         self.names = tuple(f"{kind}{i}" for i in range(1, terms + 1) for kind in ("mu", "alpha"))
 
-    def _terms(self, alpha: Array, kin: Kinematics) -> tuple[Array, Array]:
+    def _terms(self, alpha: FloatArray, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         """Stress (n, terms) for mu = 1, and its derivative with respect to alpha."""
         alpha = np.where(np.abs(alpha) < 1e-6, 1e-6, alpha)
         t, log = kin.transverse[:, None], np.log(kin.lam)[:, None]
@@ -296,20 +303,22 @@ class OgdenStress(StressModel):
         P = 2.0 / alpha * (along - across)
         return P, -P / alpha + 2.0 / alpha * log * (along + t * across)
 
-    def stress(self, theta: Array, kin: Kinematics) -> Array:
+    def stress(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         return self._terms(theta[1::2], kin)[0] @ theta[0::2]
 
-    def jacobian(self, theta: Array, kin: Kinematics) -> Array:
+    def jacobian(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         P, P_alpha = self._terms(theta[1::2], kin)
         J = np.empty((kin.lam.size, 2 * self.terms))
         J[:, 0::2] = P
         J[:, 1::2] = theta[0::2] * P_alpha
         return J
 
-    def bounds(self, kin: Kinematics) -> tuple[Array, Array]:
+    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         return np.tile([0.0, -30.0], self.terms), np.tile([np.inf, 30.0], self.terms)
 
-    def starts(self, kin: Kinematics, P: Array, count: int, rng: np.random.Generator) -> Array:
+    def starts(
+        self, kin: Kinematics, P: FloatArray, count: int, rng: np.random.Generator
+    ) -> FloatArray:
         """The best of all combinations of exponents on a grid, each with its best moduli.
 
         For given exponents the moduli are a small linear problem with mu >= 0, so the grid costs
@@ -332,7 +341,7 @@ class OgdenStress(StressModel):
         ]
         return np.array([point.ravel() for point in points])
 
-    def ordered(self, theta: Array) -> Array:
+    def ordered(self, theta: FloatArray) -> FloatArray:
         return theta.reshape(self.terms, 2)[np.argsort(-theta[1::2])].ravel()
 
     def section(self, model: str, values: dict[str, float]) -> dict[str, Any]:

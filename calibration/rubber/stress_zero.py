@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from calibration.data.tables import Table
+from materials.arrays import FloatArray
 
-Array = NDArray[np.float64]
 Zero = Literal["none", "first", "loop"]
 
 _UNDEFORMED = 0.01  # strain below which a first row counts as undeformed
@@ -34,16 +34,16 @@ class Zeroed:
         What was subtracted or divided by, for each mode.
     """
 
-    stretch: Array
-    stress: Array
+    stretch: FloatArray
+    stress: FloatArray
     valid: NDArray[np.bool_]
     notes: list[str]
 
 
 def zeroed(
     source: Table,
-    stretch: Array,
-    stress: Array,
+    stretch: FloatArray,
+    stress: FloatArray,
     mode: NDArray[np.str_],
     branches: NDArray[np.str_] | None,
     used: NDArray[np.bool_],
@@ -74,7 +74,7 @@ def zeroed(
     return Zeroed(stretch=stretch, stress=stress, valid=valid, notes=notes)
 
 
-def _offset(source: Table, stretch: Array, stress: Array, first: int) -> float:
+def _offset(source: Table, stretch: FloatArray, stress: FloatArray, first: int) -> float:
     if abs(stretch[first] - 1.0) > _UNDEFORMED:
         source.refuse_at(
             first, "stretch", f"{stretch[first]:g} in the first row of its mode",
@@ -85,8 +85,8 @@ def _offset(source: Table, stretch: Array, stress: Array, first: int) -> float:
 
 def _zero_of_the_loop(
     source: Table,
-    stretch: Array,
-    stress: Array,
+    stretch: FloatArray,
+    stress: FloatArray,
     here: NDArray[np.intp],
     branches: NDArray[np.str_] | None,
     name: str,

@@ -16,11 +16,10 @@ from typing import Literal
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import minimize_scalar
 
-from calibration.data.tables import ABSOLUTE_ZERO_C, Table
+from calibration.data.tables import Table
 from calibration.shifting.frequency_sweeps import (
     FREQUENCY,
     LOSS,
@@ -30,8 +29,9 @@ from calibration.shifting.frequency_sweeps import (
     SweepData,
     read_sweeps,
 )
+from materials.arrays import FloatArray
+from materials.units import ABSOLUTE_ZERO_C
 
-Array = NDArray[np.float64]
 Vertical = Literal["auto", "temperature", "none"]
 
 _LEAST_OVERLAP = 0.2  # decades; a shift that rests on less is reported
@@ -125,7 +125,7 @@ def shift_sweeps(
     )
 
 
-def vertical_shift(T_C: Array, T_ref_C: float, expansion_per_K: float = 0.0) -> Array:
+def vertical_shift(T_C: FloatArray, T_ref_C: float, expansion_per_K: float = 0.0) -> FloatArray:
     """``b_T = T rho/(T_0 rho_0)`` [-] at temperatures T_C (n,) for the reference T_ref_C."""
     density = 1.0 / (1.0 + expansion_per_K * (T_C - T_ref_C))
     return np.asarray((T_C - ABSOLUTE_ZERO_C) / (T_ref_C - ABSOLUTE_ZERO_C) * density)
@@ -149,7 +149,7 @@ def _said(kind: str, asked: str, shifted: dict[str, pd.DataFrame], expansion_per
     return f"{text} (chosen by the overlap error: {errors} {beside})"
 
 
-def _shifted(data: SweepData, centre: int, b_T: Array) -> pd.DataFrame:
+def _shifted(data: SweepData, centre: int, b_T: FloatArray) -> pd.DataFrame:
     """Shift factors by temperature for given vertical shifts."""
     T, count = data.temperatures, len(data.sweeps)
     curves = [
@@ -176,7 +176,7 @@ def _shifted(data: SweepData, centre: int, b_T: Array) -> pd.DataFrame:
     )
 
 
-Curves = tuple[Array, dict[str, Array]]
+Curves = tuple[FloatArray, dict[str, FloatArray]]
 
 
 def _best_shift(base: Curves, other: Curves) -> tuple[float, float, float]:

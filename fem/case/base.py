@@ -12,12 +12,13 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from fem.case.errors import describe
 from materials.plausible import Finding, Quantity, judge
+from materials.units import ABSOLUTE_ZERO_C
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Celsius = Annotated[float, Field(gt=-273.15, allow_inf_nan=False)]
+Celsius = Annotated[float, Field(gt=ABSOLUTE_ZERO_C, allow_inf_nan=False)]
 #: A material constant: no law of friction or rubber has larger ones.
 Constant = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
 Factor = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]

@@ -14,17 +14,17 @@ from dataclasses import fields, is_dataclass
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+
+from materials.arrays import AnyArray
 
 T = TypeVar("T")
-Array = NDArray[Any]
 
 
 class PackingError(ValueError):
     """Data that do not fit the class they are to become."""
 
 
-def pack(value: Any) -> tuple[Any, dict[str, Array]]:
+def pack(value: Any) -> tuple[Any, dict[str, AnyArray]]:
     """Plain data that JSON can hold, and the arrays they refer to by name.
 
     Parameters
@@ -45,7 +45,7 @@ def pack(value: Any) -> tuple[Any, dict[str, Array]]:
         For anything else.
     """
     names: dict[int, str] = {}
-    arrays: dict[str, Array] = {}
+    arrays: dict[str, AnyArray] = {}
 
     def packed(value: Any) -> Any:
         if value is None or isinstance(value, (bool, int, float, str)):
@@ -62,7 +62,7 @@ def pack(value: Any) -> tuple[Any, dict[str, Array]]:
             return [packed(item) for item in value]
         raise TypeError(f"a {type(value).__name__} cannot be packed")
 
-    def _kept(array: Array) -> str:
+    def _kept(array: AnyArray) -> str:
         if array.dtype.hasobject:
             raise TypeError("an array of objects cannot be packed")
         name = names.setdefault(id(array), f"a{len(names)}")
@@ -72,7 +72,7 @@ def pack(value: Any) -> tuple[Any, dict[str, Array]]:
     return packed(value), arrays
 
 
-def unpack(kind: type[T], tree: Any, arrays: Mapping[str, Array]) -> T:
+def unpack(kind: type[T], tree: Any, arrays: Mapping[str, AnyArray]) -> T:
     """What was packed, as an instance of the class it was.
 
     Parameters
@@ -91,7 +91,7 @@ def unpack(kind: type[T], tree: Any, arrays: Mapping[str, Array]) -> T:
     return value
 
 
-def _unpacked(hint: Any, tree: Any, arrays: Mapping[str, Array], where: str) -> Any:
+def _unpacked(hint: Any, tree: Any, arrays: Mapping[str, AnyArray], where: str) -> Any:
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if origin in (typing.Union, types.UnionType):
         if tree is None and type(None) in arguments:
@@ -120,7 +120,7 @@ def _unpacked(hint: Any, tree: Any, arrays: Mapping[str, Array], where: str) -> 
     return tree
 
 
-def _checked(array: Array, hint: Any, where: str) -> Array:
+def _checked(array: AnyArray, hint: Any, where: str) -> AnyArray:
     """The array, if it holds the kind of numbers that the hint says."""
     *_, dtype = typing.get_args(hint) or (Any,)
     (wanted,) = typing.get_args(dtype) or (Any,)
@@ -129,7 +129,7 @@ def _checked(array: Array, hint: Any, where: str) -> Array:
     return array
 
 
-def _dataclass(kind: Any, tree: Any, arrays: Mapping[str, Array], where: str) -> Any:
+def _dataclass(kind: Any, tree: Any, arrays: Mapping[str, AnyArray], where: str) -> Any:
     hints = _hints(kind)
     if not isinstance(tree, dict) or set(tree) != set(hints):
         raise PackingError(f"{where} has other fields")

@@ -21,7 +21,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import SuperLU, splu
 from skfem import Basis, ElementQuad1
@@ -29,10 +28,8 @@ from skfem import Basis, ElementQuad1
 from fem.mesh.block import BlockMesh
 from fem.solvers.direct import SYMMETRIC
 from fem.solvers.stopwatch import Stopwatch
+from materials.arrays import FloatArray
 from materials.thermal import ThermalProperties
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Nodal quadrature of the unit square: points (2, 4) and weights (4,).
 NODAL_RULE = (

@@ -32,9 +32,8 @@ from fem.heat.radiation import radiated_flux, radiating_length
 from fem.heat.road import RoadConduction, RoadGrid, RoadState
 from fem.heat.state import HeatLoad, HeatState, RoadField
 from fem.mesh.block import BlockMesh
+from materials.arrays import FloatArray
 from materials.thermal import ThermalProperties
-
-FloatArray = NDArray[np.float64]
 
 #: Number of conduction matrices kept.
 CACHED = 3

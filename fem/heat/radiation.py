@@ -5,14 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
-
-#: Stefan-Boltzmann constant 5.670374419e-8 W/(m^2 K^4) (CODATA 2018) in N/(mm s K^4).
-STEFAN_BOLTZMANN = 5.670374419e-11
-
-#: Absolute zero [C].
-ABSOLUTE_ZERO_C = -273.15
+from materials.arrays import FloatArray, IntArray
+from materials.units import ABSOLUTE_ZERO_C, STEFAN_BOLTZMANN
 
 
 def radiated_flux(T_C: FloatArray, ambient_C: float, emissivity: float) -> FloatArray:

@@ -23,14 +23,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.fft import dct, idct
 from scipy.linalg import eigh
 
+from materials.arrays import FloatArray, IntArray
 from materials.thermal import ThermalProperties
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Columns are added and dropped in groups of this size.
 COLUMN_GROUP = 8

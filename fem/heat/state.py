@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.heat.road import RoadState
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from materials.arrays import FloatArray, IntArray
 
 
 def _no_nodes() -> IntArray:

@@ -23,11 +23,11 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from skfem import Basis, ElementQuad1, ElementVector
 
 from fem.mesh.block import BlockMesh
 from fem.solvers.sparse_pattern import summed
+from materials.arrays import FloatArray, IntArray
 from materials.material import (
     EnergyDerivatives,
     InPlane,
@@ -37,9 +37,6 @@ from materials.material import (
     Stiffness,
 )
 from materials.plane_strain import cauchy_stress
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Elements whose tangents are computed at once, so that intermediate arrays stay in the cache.
 BATCH = 1024

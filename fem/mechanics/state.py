@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from contact.active_set import ContactStatus
-
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -25,10 +25,8 @@ from fem.mesh.block import BlockMesh
 from fem.solvers.direct import LinearSolver, SuperLUSolver
 from fem.solvers.ordering import nested_dissection
 from fem.solvers.sparse_pattern import SparsePattern, summed
+from materials.arrays import FloatArray, IntArray
 from materials.material import MaterialStep, StepEnd
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Largest change of a deformation gradient in one Newton iteration [-].
 STRAIN_LIMIT = 1.0

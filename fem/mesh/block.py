@@ -12,9 +12,7 @@ from skfem import MeshQuad
 
 from fem.mesh.boundary import Chain, free_curves, named_chains, single_edges
 from fem.mesh.grading import Grading
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from materials.arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,8 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fem.mesh.block import BlockMesh
-
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 #: What the names of the chains on the road begin with.
 BOTTOM = "bottom"

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.case.case import Case
 from fem.case.errors import CaseError, describe
@@ -24,9 +23,9 @@ from fem.files.atomic import replacing
 from fem.files.machine_faults import cause
 from fem.files.packing import PackingError, pack, unpack
 from fem.files.program_version import program_version
+from materials.arrays import AnyArray
 
 T = TypeVar("T")
-Array = NDArray[Any]
 
 #: Name of the file in the folder of a run.
 CHECKPOINT_FILE = "checkpoint.npz"
@@ -131,7 +130,7 @@ def read_checkpoint(path: str | Path, case: Case, kind: type[T]) -> T:
         raise _refused(path, "content", str(error), "what this version writes") from None
 
 
-def check_checkpoint(path: str | Path, case: Case) -> tuple[dict[str, Any], dict[str, Array]]:
+def check_checkpoint(path: str | Path, case: Case) -> tuple[dict[str, Any], dict[str, AnyArray]]:
     """Description and arrays of a checkpoint that is complete and belongs to version and case."""
     path = Path(path)
     about, arrays = _contents(path)
@@ -143,7 +142,7 @@ def check_checkpoint(path: str | Path, case: Case) -> tuple[dict[str, Any], dict
     return about, arrays
 
 
-def _digest(tree: Any, arrays: Mapping[str, Array]) -> str:
+def _digest(tree: Any, arrays: Mapping[str, AnyArray]) -> str:
     """Of everything that is kept: what was changed by hand afterwards is not gone on with."""
     digest = hashlib.sha256(json.dumps(tree, sort_keys=True).encode())
     for name, array in sorted(arrays.items()):
@@ -152,7 +151,7 @@ def _digest(tree: Any, arrays: Mapping[str, Array]) -> str:
     return digest.hexdigest()
 
 
-def _contents(path: Path) -> tuple[dict[str, Any], dict[str, Array]]:
+def _contents(path: Path) -> tuple[dict[str, Any], dict[str, AnyArray]]:
     try:
         data = path.read_bytes()
         with zipfile.ZipFile(io.BytesIO(data)) as archive:

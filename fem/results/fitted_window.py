@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from fem.case.case import Case
 from fem.case.window import ContactWindow
+from materials.arrays import FloatArray
 
-FloatArray = NDArray[np.float64]
 Rows = Sequence[Mapping[str, Any]]
 
 #: Share of contact or rubber outside from which a run warns; less is in its log. The block starts

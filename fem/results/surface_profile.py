@@ -8,9 +8,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 #: Share of the bottom's length, at the leading corner, in which a front-edge peak can have its top.
 EDGE_ZONE = 0.2

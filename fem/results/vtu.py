@@ -15,7 +15,8 @@ import meshio
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.results.snapshot import BlockGeometry, FloatArray, Snapshot
+from fem.results.snapshot import BlockGeometry, Snapshot
+from materials.arrays import FloatArray
 
 DISPLACEMENT = "displacement_mm"
 TEMPERATURE = "temperature_C"

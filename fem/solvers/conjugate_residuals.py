@@ -11,11 +11,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 from scipy.sparse import csc_matrix
 
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 
 def conjugate_residuals(

@@ -19,14 +19,12 @@ from importlib.util import find_spec
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
 from fem.solvers.conjugate_residuals import conjugate_residuals
 from fem.solvers.stopwatch import Stopwatch
-
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 SYMMETRIC = {"diag_pivot_thresh": 0.001, "options": {"SymmetricMode": True}}
 

@@ -11,8 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
 from fem.solvers.conjugate_residuals import conjugate_residuals
@@ -25,8 +23,7 @@ from fem.solvers.direct import (
     pardiso_available,
 )
 from fem.solvers.stopwatch import Stopwatch
-
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 #: Unknowns from which single precision pays: factorisation and solution take 0.7 times as long with
 #: 40,000, as long with 6,000.

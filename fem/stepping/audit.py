@@ -9,13 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.mechanics.step import BlockMechanics, platen_displacement
 from fem.stepping.balance import balance_error, share
 from fem.stepping.coupled_step import AcceptedStep
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -34,12 +34,11 @@ from fem.mechanics.state import MechanicalState
 from fem.mechanics.step import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
 from fem.stepping.programme import Target
 from materials.material import StepEnd
+from materials.units import W_PER_M2_K
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-#: 1 W/(m^2 K) in N/(mm s K).
-W_PER_M2K = 1e-3
 #: Lag of the friction force below which no further pass is made [-].
 LAG_TOLERANCE = 1e-3
 #: Deepest penetration of the block into itself in an accepted step, over the local element size.
@@ -470,7 +469,7 @@ class CoupledModel:
         load = HeatLoad(
             dt=target.dt, sweep=target.sweep, displacement=u,
             contact_nodes=self.mechanics.candidates[active], power=power[active],
-            conductance=(W_PER_M2K * h * contact.length)[active],
+            conductance=(W_PER_M2_K * h * contact.length)[active],
             surface_nodes=np.concatenate([self.mechanics.candidates[opened], surface[0]]),
             surface_power=np.concatenate([power[opened], surface[1]]),
             bulk_power=bulk,

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.case.case import Case
 from fem.heat.state import HeatState
@@ -16,8 +15,7 @@ from fem.results.snapshot import Snapshot
 from fem.stepping.audit import EnergyAudit
 from fem.stepping.coupled_step import CoupledState
 from fem.stepping.step_control import StepPlan
-
-Array = NDArray[Any]
+from materials.arrays import AnyArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,7 +103,7 @@ class Records:
         Stick, slip and pressure along the bottom; none of a rigid block.
     """
 
-    history: dict[str, Array]
+    history: dict[str, AnyArray]
     snapshots: list[Snapshot]
     log: list[str]
     wall_s: float
@@ -135,7 +133,7 @@ class RigidRecord:
     records: Records
 
 
-def columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
+def columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, AnyArray]:
     """History rows, which have the same keys, as columns."""
     return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 

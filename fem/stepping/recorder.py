@@ -19,8 +19,7 @@ from fem.results.snapshot import BlockGeometry, Snapshot
 from fem.results.surface_profile import excess_area, interior_peak
 from fem.stepping.audit import EnergyAudit
 from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
-
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 
 class Recorder:

@@ -18,11 +18,8 @@ from contact.partition import HeatPartition
 from fem.case.case import Case
 from fem.heat.model import HeatModel
 from fem.heat.state import HeatLoad, HeatState
-
-FloatArray = NDArray[np.float64]
-
-#: 1 W/(m^2 K) in N/(mm s K).
-W_PER_M2K = 1e-3
+from materials.arrays import FloatArray
+from materials.units import W_PER_M2_K
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,7 +146,7 @@ def slide_rigid_block(
     mesh, speed = model.mesh, abs(sliding.velocity)
     lengths = mesh.bottom_lengths
     p = np.full(len(lengths), sliding.pressure)
-    h = W_PER_M2K * sliding.conductance.conductance(p, speed)
+    h = W_PER_M2_K * sliding.conductance.conductance(p, speed)
     governing = sliding.partition.governing(p, sliding.pressure)
     kappa = sliding.partition(governing)
     capped = sliding.partition.uncapped(governing) > sliding.partition.cap

@@ -8,7 +8,6 @@ from fem.sweeps.runs import (
     read_run,
     simulate_missing,
     study_runs,
-    summary_table,
 )
 from fem.sweeps.study import StudyCase, read_study
 from fem.sweeps.sweep import sweep
@@ -27,6 +26,5 @@ __all__ = [
     "read_study",
     "simulate_missing",
     "study_runs",
-    "summary_table",
     "sweep",
 ]

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from fem.case.case import Case
 from fem.case.errors import CaseError
 from fem.results.result import Result
@@ -121,8 +119,3 @@ def simulate_missing(
             done = counts.total()
             if not quiet:
                 bar(SweepProgress(cases=len(waiting), done=done, earlier=0, status=dict(counts)))
-
-
-def summary_table(runs: list[StudyRun]) -> pd.DataFrame:
-    """One row per run: the grid's columns, then the summary."""
-    return pd.DataFrame([run.study_case.overrides | run.result.summary for run in runs])

@@ -2,10 +2,11 @@
 
 from dataclasses import asdict
 
+import numpy as np
+import pandas as pd
 import pytest
 
 from calibration.paper_tables import (
-    coverage,
     friction_fit,
     friction_values,
     stress_fit,
@@ -17,6 +18,19 @@ from calibration.paper_tables import (
 )
 from calibration.synthetic import TABLE_1
 from materials import COMPOUNDS
+
+
+def coverage(fit, truth, seeds=100):
+    """How often the fits of many seeds tell the truth about their own uncertainty, by parameter."""
+    results = [fit(seed) for seed in range(seeds)]
+    off = np.array([[(r.values[n] - truth[n]) / r.stderr[n] for n in r.names] for r in results])
+    inside = np.array(
+        [[low <= truth[n] <= high for n, (low, high) in r.interval().items()] for r in results]
+    )
+    near = np.abs(off) <= 3.0
+    return pd.DataFrame(
+        {"in_95_interval": inside.mean(axis=0), "all_within_3_stderr": near.all(axis=1).mean()}
+    )
 
 
 def require_honest_errors(table):

@@ -5,7 +5,6 @@ import pytest
 
 from materials import NeoHooke, VanDerWaals
 from materials.plane_strain import cauchy_stress, dP_dF, first_piola_kirchhoff
-from materials.volumetric import volumetric_energy, volumetric_stiffness, volumetric_stress
 from tests.materials.models import MODELS, constants, kind
 from tests.reference_solutions import homogeneous
 
@@ -150,14 +149,6 @@ def test_planar_test_is_recovered_from_plane_strain(name):
     np.testing.assert_allclose(
         (sigma[:, 0] - sigma[:, 1]) / lam, model.nominal_stress(lam, "planar"), rtol=1e-11
     )
-
-
-def test_volumetric_stress_and_stiffness_are_derivatives():
-    J, h = np.array([0.9, 1.0, 1.2]), 1e-6
-    slope = (volumetric_energy(J + h, 70.0) - volumetric_energy(J - h, 70.0)) / (2 * h)
-    np.testing.assert_allclose(volumetric_stress(J, 70.0), slope, atol=1e-7)
-    bend = (volumetric_stress(J + h, 70.0) - volumetric_stress(J - h, 70.0)) / (2 * h)
-    np.testing.assert_allclose(volumetric_stiffness(J, 70.0), bend, rtol=1e-8)
 
 
 def rotation(angle):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem.results.snapshot import FloatArray
+from materials.arrays import FloatArray
 from materials.hyperelastic import Hyperelastic
 
 #: Largest stretch of the paper's tests: 300 % of strain in the second series of bars.

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from fem.results.result import Result
-from fem.results.snapshot import FloatArray
 from fem.results.surface_profile import EDGE_ZONE
+from materials.arrays import FloatArray
 from validation.drawing.field_panels import BlockState
 from validation.drawing.state_panels import last_state
 

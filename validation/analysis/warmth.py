@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 from scipy.special import erfc
 
 from fem.results.result import Result
-from fem.results.snapshot import FloatArray
 from fem.results.surface_profile import interior_peak
+from materials.arrays import FloatArray
 from validation.analysis.numbers import number
 from validation.drawing.block_drawing import cell_areas
 from validation.drawing.state_panels import last_state

@@ -8,13 +8,10 @@ moves along z: plane strain with the unknowns of a plane problem.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.mesh.block import BlockMesh
+from materials.arrays import FloatArray, IntArray
 from validation.calculix.deck_material import numbers
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Depth of the layer [mm].
 DEPTH = 1.0

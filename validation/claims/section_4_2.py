@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from fem.results.result import Result
+from materials.units import ABSOLUTE_ZERO_C
 from validation.analysis.numbers import number
 from validation.analysis.paper_numbers import MEASURED_TO_K
 from validation.analysis.shape import (
@@ -107,7 +108,7 @@ def most_rubber_is_cold(evidence: Evidence) -> Numbers:
 
 def constant_parameters_suffice(evidence: Evidence) -> Numbers:
     rises, area = cell_rises(evidence.introductory)
-    absolute = 273.15 + evidence.introductory.case.heat.ambient_C
+    absolute = evidence.introductory.case.heat.ambient_C - ABSOLUTE_ZERO_C
     moduli = np.sort([model.initial_shear_modulus for model in evidence.rubbers.values()])
     return {
         "modulus_change": float(np.average(rises, weights=area) / absolute),

@@ -11,7 +11,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.patches import Rectangle
 
-from fem.results.snapshot import FloatArray, IntArray
+from materials.arrays import FloatArray, IntArray
 from validation.drawing.style import BLACK, GREY, ROAD_GREY
 
 #: x_min, x_max, y_min, y_max [mm].

@@ -12,7 +12,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from fem.results.snapshot import BlockGeometry, FloatArray, Snapshot
+from fem.results.snapshot import BlockGeometry, Snapshot
+from materials.arrays import FloatArray
 from validation.drawing.block_drawing import (
     Window,
     cell_areas,

@@ -11,9 +11,8 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from fem.results.bottom_history import BottomHistory
+from materials.arrays import FloatArray
 from validation.drawing.style import BLUE, GREY, ORANGE, PAGE_WIDTH, STRESS_MAP, new_figure, styled
-
-FloatArray = NDArray[np.float64]
 
 MOTION_LABEL = "platen motion [mm]"
 #: Share of the steady friction force at which the block slides in full, and how far behind it the

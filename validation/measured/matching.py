@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-BoolArray = NDArray[np.bool_]
+from materials.arrays import BoolArray
+
 IntArray = NDArray[np.intp]
 
 #: Measured conditions and how far a simulation may be from them [-]. The mean contact pressure is a

@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 
 from calibration.data.tables import Table, read_table
 from fem.results.surface_profile import excess_area, interior_peak
-
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 #: What is compared, with its unit.
 QUANTITIES = {"T_max_C": "°C", "A_T_K_mm": "K mm", "friction_coefficient": "-"}

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from fem.heat.model import HeatModel
-from fem.heat.radiation import STEFAN_BOLTZMANN
 from fem.heat.road import RoadGrid
 from fem.heat.state import HeatLoad, HeatState
 from fem.mesh.block import block_mesh
 from fem.mesh.grading import Grading
 from materials.thermal import ASPHALT, RUBBER
+from materials.units import STEFAN_BOLTZMANN
 from tests.fem.small_blocks import leading_face
 from tests.reference_solutions.conduction import (
     contact_of_two_half_spaces,

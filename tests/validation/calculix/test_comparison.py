@@ -7,10 +7,14 @@ import pytest
 
 from fem import simulate
 from fem.case.sections import Solver
+from tests.validation.calculix.comparison import (
+    compare_with_calculix,
+    compared,
+    largest_differences,
+)
+from tests.validation.calculix.run import CalculixError, calculix_program, run_calculix
 from tests.validation.sliding_cases import sliding_case
-from validation.calculix.comparison import compare_with_calculix, compared, largest_differences
 from validation.calculix.export_deck import DeckOptions, write_deck
-from validation.calculix.run import CalculixError, calculix_program, run_calculix
 
 needs_calculix = pytest.mark.skipif(
     calculix_program() is None, reason="CalculiX (ccx, Debian package calculix-ccx) is missing"
@@ -122,7 +126,7 @@ def test_deck_that_does_not_converge_is_an_error_in_one_line(tmp_path):
 
 
 def test_missing_calculix_is_named_with_its_package(tmp_path, monkeypatch):
-    monkeypatch.setattr("validation.calculix.run.PROGRAM", "no-such-program")
+    monkeypatch.setattr("tests.validation.calculix.run.PROGRAM", "no-such-program")
     with pytest.raises(CalculixError, match="calculix-ccx"):
         run_calculix(tmp_path / "deck.inp")
 

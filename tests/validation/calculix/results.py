@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from fem.case.case import Case
 from fem.mesh.block import BlockMesh
 from fem.stepping.model_parts import mesh_of
+from materials.arrays import FloatArray
 from validation.calculix.deck_event import PRESSING_TIME
-
-FloatArray = NDArray[np.float64]
 
 _TITLE = re.compile(
     r"^\s*(?P<quantity>[a-z][a-z ()-]*?)\s*\((?P<columns>[^)]*)\)\s*for set\s+(?P<set>\S+)"

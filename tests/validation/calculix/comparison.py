@@ -27,16 +27,13 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fem import simulate
 from fem.case.case import Case
 from fem.results.result import Result
+from tests.validation.calculix.results import deck_history, read_dat
+from tests.validation.calculix.run import run_calculix
 from validation.calculix.export_deck import DeckOptions, write_deck
-from validation.calculix.results import deck_history, read_dat
-from validation.calculix.run import run_calculix
-
-FloatArray = NDArray[np.float64]
 
 #: Columns compared while the block is pressed (against the force) and while it slides.
 PRESSING_COLUMNS = ("platen_displacement_mm", "contact_length_mm")
