@@ -8,18 +8,11 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from validation.report.captions import NOT_COMPUTED
+from validation.report import captions
 from validation.report.cells import is_number
 from validation.report.introductory_part import IntroductoryRun, find_introductory
 from validation.report.made_with import MadeWith
-from validation.report.parts import (
-    Part,
-    claims_part,
-    figure_parts,
-    robustness_part,
-    sensitivity_part,
-    table_parts,
-)
+from validation.report.parts import Part, find_part
 from validation.report.runs_found import programs_of_runs
 from validation.sensitivity.parameters import PARAMETERS, Parameter, first_key
 from validation.studies import STUDIES
@@ -41,7 +34,7 @@ class Page:
     robustness: Part
     made_with: MadeWith
     programs: list[tuple[str, int]]
-    not_computed: str = NOT_COMPUTED
+    not_computed: str = captions.NOT_COMPUTED
 
     @property
     def missing(self) -> list[tuple[str, str]]:
@@ -72,11 +65,17 @@ def find_page(directory: Path, made_with: MadeWith) -> Page:
     """Collect what lies in a folder of figures."""
     return Page(
         run=find_introductory(directory, made_with.program),
-        claims=claims_part(directory),
-        figures=figure_parts(directory),
-        tables=table_parts(directory),
-        sensitivity=sensitivity_part(directory),
-        robustness=robustness_part(ROBUSTNESS),
+        claims=find_part(directory, "claims", "The paper's claims"),
+        figures=[
+            find_part(directory, f"fig{number}", f"Figure {number}", caption)
+            for number, caption in captions.FIGURES.items()
+        ],
+        tables=[
+            find_part(directory, f"table{number}", f"Table {number}", caption)
+            for number, caption in captions.TABLES.items()
+        ],
+        sensitivity=find_part(directory, "sensitivity", "Sensitivity", captions.SENSITIVITY),
+        robustness=find_part(ROBUSTNESS.parent, "robustness", "Robustness", captions.ROBUSTNESS),
         made_with=made_with,
         programs=programs_of_runs(directory),
     )

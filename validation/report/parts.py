@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from validation.report.captions import FIGURES, TABLES
 from validation.report.cells import CellTable, read_cells
 
 
@@ -46,68 +45,20 @@ class Part:
         return not (self.picture or self.tables)
 
 
-def figure_parts(directory: Path) -> list[Part]:
-    """Figures of the paper."""
-    return [
-        Part(
-            anchor=f"fig{number}",
-            title=f"Figure {number}",
-            caption=caption,
-            command=f"make fig{number}",
-            picture=_picture(directory / f"fig{number}.png"),
-        )
-        for number, caption in FIGURES.items()
-    ]
+def find_part(directory: Path, anchor: str, title: str, caption: str = "") -> Part:
+    """The part whose files in a folder begin with its anchor; `make ANCHOR` makes it.
 
-
-def table_parts(directory: Path) -> list[Part]:
-    """Tables of the paper, each with all of its CSV files and the first paragraph of its text."""
-    return [
-        Part(
-            anchor=f"table{number}",
-            title=f"Table {number}",
-            caption=caption,
-            command=f"make table{number}",
-            tables=_papers_first(_tables(sorted(directory.glob(f"table{number}[._]*csv")))),
-            note=first_paragraph(directory / f"table{number}.txt"),
-        )
-        for number, caption in TABLES.items()
-    ]
-
-
-def claims_part(directory: Path) -> Part:
-    """The paper's statements, checked."""
+    Tables of the paper have all of their CSV files, figures only the picture.
+    """
+    stated = [] if anchor.startswith("fig") else sorted(directory.glob(f"{anchor}[._]*csv"))
     return Part(
-        anchor="claims",
-        title="The paper's claims",
-        command="make claims",
-        tables=_tables([directory / "claims.csv"]),
-    )
-
-
-def sensitivity_part(directory: Path) -> Part:
-    """The study of what the paper leaves open."""
-    return Part(
-        anchor="sensitivity",
-        title="Sensitivity",
-        caption="One parameter at a time: what the paper leaves open, and numerical settings on "
-        "which the results should not depend. The strongest influence on T_max comes first.",
-        command="make sensitivity",
-        picture=_picture(directory / "sensitivity.png"),
-        tables=_tables([directory / "sensitivity.csv"]),
-        note=first_paragraph(directory / "sensitivity.txt"),
-    )
-
-
-def robustness_part(path: Path) -> Part:
-    """The table of the robustness study, which lies beside the studies."""
-    return Part(
-        anchor="robustness",
-        title="Robustness",
-        caption="All parameter sets, friction coefficients from 0.3 to 1.2 and both friction laws, "
-        "pressures from 0.1 to 0.5 N/mm²: one set of solver settings, 40 mm of sliding.",
-        command="make robustness",
-        tables=_tables([path]),
+        anchor=anchor,
+        title=title,
+        caption=caption,
+        command=f"make {anchor}",
+        picture=_picture(directory / f"{anchor}.png"),
+        tables=_papers_first(_tables(stated)),
+        note=first_paragraph(directory / f"{anchor}.txt"),
     )
 
 
