@@ -99,6 +99,16 @@ def fit_wlf(
     -----
     ``log10 a_T = c - d1 (T - T_ref)/(d2 + T - T_ref)``. The offset c takes up that the data may
     refer to another temperature than T_ref (and their scatter there).
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> from materials import WLF
+    >>> T = [0.0, 20.0, 40.0, 60.0]
+    >>> factors = WLF(d1=8.0, d2_K=120.0).log10_shift_factor(T, 20.0)
+    >>> table = pd.DataFrame({"T_C": T, "log10_aT": factors})
+    >>> round(fit_wlf(table, T_ref_C=20.0).values["d1"], 3)
+    8.0
     """
     if isinstance(table, ShiftFactors):
         data = table

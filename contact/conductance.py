@@ -33,6 +33,11 @@ class GapConductance:
         been published, the default 0 leaves it constant.
     v_ref : float
         Reference speed of the stiffening [mm/s].
+
+    Examples
+    --------
+    >>> round(float(GapConductance(h_ref=1600.0).conductance(0.15)))  # half the pressure
+    834
     """
 
     h_ref: float = 1600.0

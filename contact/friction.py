@@ -100,6 +100,11 @@ class CoulombFriction(FrictionLaw):
     ----------
     mu : float
         Friction coefficient [-].
+
+    Examples
+    --------
+    >>> float(CoulombFriction(mu=0.3).coefficient(0.2, 50.0))
+    0.3
     """
 
     mu: float
@@ -121,6 +126,11 @@ class ExponentialFriction(FrictionLaw):
     A, B, C : float
         Constants for p in N/mm^2 and v in mm/s, with the paper's values for a winter tread
         compound on asphalt as defaults (Table 2).
+
+    Examples
+    --------
+    >>> round(float(ExponentialFriction().coefficient(0.3, 300.0)), 3)
+    0.973
     """
 
     A: float = 0.7064
@@ -154,6 +164,13 @@ class HuemerFriction(FrictionLaw):
     -----
     Multiplying alpha, beta, a, b, c by one number changes nothing. For b < 0 < c the peak is at
     ``v = (-2 c/b)^m`` (26.5 mm/s for Table 2).
+
+    Examples
+    --------
+    >>> round(float(HuemerFriction().coefficient(0.3, 300.0)), 3)
+    0.906
+    >>> round(HuemerFriction().peak_velocity, 1)  # mm/s
+    26.5
     """
 
     alpha: float = 0.1399
@@ -219,6 +236,13 @@ class ThermalFriction:
     -----
     ``v_equ = v a_T(T)/a_T(T_ref)`` with T the rubber's local surface temperature: a hotter surface
     acts like a slower one. The law's floor of the speed applies to v_equ.
+
+    Examples
+    --------
+    >>> from materials import WLF
+    >>> law = ThermalFriction(law=HuemerFriction(), wlf=WLF())
+    >>> [round(float(mu), 3) for mu in law.coefficient(0.3, 300.0, [20.0, 50.0])]
+    [0.906, 0.769]
     """
 
     law: FrictionLaw
@@ -267,5 +291,12 @@ class ThermalFriction:
 
 
 def shifted(law: FrictionLaw, wlf: WLF | None, T_ref_C: float = 20.0) -> ThermalFriction:
-    """Law with its velocity shifted by the temperature (see `ThermalFriction`)."""
+    """Law with its velocity shifted by the temperature (see `ThermalFriction`).
+
+    Examples
+    --------
+    >>> from materials import WLF
+    >>> round(float(shifted(ExponentialFriction(), WLF()).coefficient(0.3, 300.0, 50.0)), 3)
+    0.769
+    """
     return ThermalFriction(law=law, wlf=wlf, T_ref_C=T_ref_C)

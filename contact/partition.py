@@ -46,6 +46,11 @@ class HeatPartition:
     pressure : "mean", "local" or float
         What p is: the mean contact pressure, the same for all points; the pressure of each point;
         or a fixed pressure [N/mm^2].
+
+    Examples
+    --------
+    >>> [round(float(kappa), 3) for kappa in HeatPartition()([0.1, 0.3])]
+    [1.0, 0.716]
     """
 
     prefactor: float = 0.3146

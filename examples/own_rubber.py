@@ -15,7 +15,7 @@ from fem import Case, simulate
 here, out = Path(__file__).parent, Path("results/own_rubber")
 out.mkdir(parents=True, exist_ok=True)
 
-test = here / "measurements/synthetic_bars.csv"  # stretch, nominal_stress_N_per_mm2, mode, ...
+test = here / "synthetic_bars.csv"  # stretch, nominal_stress_N_per_mm2, mode, ...
 fit = fit_hyperelastic(test, model="yeoh", branch="load")  # of the last full cycle
 for name, value in fit.values.items():
     print(f"{name} = {value:.4f} ± {fit.stderr[name]:.4f} N/mm²")

@@ -286,6 +286,14 @@ def simulate(
         If the checkpoint to resume from is damaged or of another case or version.
     TypeError
         If an argument is of another type.
+
+    Examples
+    --------
+    >>> from fem import Case
+    >>> case = Case.from_toml("examples/short.toml", {"loading.distance_mm": 0.1})
+    >>> result = simulate(case)
+    >>> result.summary["status"]
+    'ok'
     """
     _check_types(case, progress, checkpoint)
     kept_in = Checkpoint(checkpoint, case) if checkpoint is not None else None

@@ -29,7 +29,13 @@ COMPOUNDS: Mapping[str, Hyperelastic] = MappingProxyType(
 
 
 def compound(name: str) -> Hyperelastic:
-    """Hyperelastic model of a named compound of Table 1 [1]_."""
+    """Hyperelastic model of a named compound of Table 1 [1]_.
+
+    Examples
+    --------
+    >>> compound("yeoh-bars-series-2").initial_shear_modulus
+    0.64
+    """
     if name in COMPOUNDS:
         return COMPOUNDS[name]
     near = get_close_matches(str(name), COMPOUNDS, n=1)

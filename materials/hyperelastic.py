@@ -180,6 +180,11 @@ class NeoHooke(MixedInvariantEnergy):
     ----------
     G : float
         Shear modulus [N/mm^2].
+
+    Examples
+    --------
+    >>> NeoHooke(G=0.8).initial_shear_modulus
+    0.8
     """
 
     G: float
@@ -208,6 +213,11 @@ class MooneyRivlin(MixedInvariantEnergy):
     ----------
     C10, C01 : float
         Constants [N/mm^2]; their sum is half the shear modulus and must be positive.
+
+    Examples
+    --------
+    >>> round(MooneyRivlin(C10=0.4, C01=0.1).initial_shear_modulus, 9)
+    1.0
     """
 
     C10: float
@@ -241,6 +251,12 @@ class Yeoh(MixedInvariantEnergy):
     Notes
     -----
     A negative C30 (Table 1, "bars, series 1, load") lets the energy lose ellipticity at large I1b.
+
+    Examples
+    --------
+    >>> model = Yeoh(C10=0.38, C20=0.02, C30=0.001)
+    >>> round(float(model.nominal_stress(1.5, "uniaxial")), 4)
+    0.8536
     """
 
     C10: float
@@ -290,6 +306,12 @@ class VanDerWaals(MixedInvariantEnergy):
     w'' is singular like (s - 3)^(-1/2) at the undeformed state, while its factors in dP/dF vanish
     like s - 3. The product tends to zero, so w'' is set to zero there. Beyond eta = 1 the energy
     does not exist and the values are NaN (see `admissible`).
+
+    Examples
+    --------
+    >>> model = VanDerWaals(G=0.6, lambda_m=4.95, a=0.68)
+    >>> round(float(model.nominal_stress(2.0, "planar")), 4)
+    0.8515
     """
 
     G: float
@@ -349,6 +371,11 @@ class ArrudaBoyce(MixedInvariantEnergy):
         Rubbery modulus [N/mm^2].
     lambda_m : float
         Limiting chain stretch [-], above 1.
+
+    Examples
+    --------
+    >>> round(ArrudaBoyce(C1=0.25, lambda_m=3.0).initial_shear_modulus, 4)
+    0.2686
     """
 
     C1: float

@@ -20,6 +20,12 @@ class EnergyDerivatives(NamedTuple):
     """Isochoric energy per reference volume and its partial derivatives [N/mm^2].
 
     ``W_1`` is dW/dI1 at constant J, ``W_J`` is dW/dJ at constant I1, and so on.
+
+    Examples
+    --------
+    >>> from materials import NeoHooke
+    >>> float(NeoHooke(G=0.8).derivatives(3.0, 1.0).W_1)
+    0.4
     """
 
     W: FloatArray

@@ -48,6 +48,11 @@ class Ogden(Hyperelastic):
         Moduli [N/mm^2]; their sum is the shear modulus and must be positive.
     alpha : tuple of float
         Exponents [-], not zero.
+
+    Examples
+    --------
+    >>> Ogden(mu=(0.6, 0.1), alpha=(2.0, -2.0)).initial_shear_modulus
+    0.7
     """
 
     mu: tuple[float, ...]

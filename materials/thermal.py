@@ -24,6 +24,12 @@ class ThermalProperties:
         Density rho [t/mm^3]; 1 kg/m^3 = 1e-12 t/mm^3.
     specific_heat : float
         Specific heat c [mJ/(t K)]; 1 kJ/(kg K) = 1e9 mJ/(t K).
+
+    Examples
+    --------
+    >>> from materials import RUBBER
+    >>> round(RUBBER.diffusivity, 4)  # mm²/s
+    0.1623
     """
 
     conductivity: float

@@ -33,6 +33,11 @@ class WLF:
     The sign in eq. (8) of [2]_ can be read either way; the physics cannot. States with the same
     reduced velocity ``v a_T(T)`` are equivalent, and a_T falls with temperature, so a *hotter*
     surface acts like a *slower* one: 10 K above the reference multiply the velocity by 0.15.
+
+    Examples
+    --------
+    >>> round(float(WLF().equivalent_velocity(300.0, 30.0, 20.0)), 1)  # 10 K warmer: as if slower
+    44.4
     """
 
     d1: float = 43.1

@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import inspect
 from pathlib import Path
 
 import pytest
@@ -28,3 +29,16 @@ def test_examples_in_docstrings_give_what_they_show(module):
 def test_a_wrong_example_is_found():
     wrong = doctest.DocTestParser().get_doctest(">>> 1 + 1\n3\n", {}, "wrong", None, 0)
     assert doctest.DocTestRunner().run(wrong, out=lambda _: None).failed == 1
+
+
+HANDED_OUT = [
+    pytest.param(getattr(package, name), id=f"{package.__name__}.{name}")
+    for package in map(importlib.import_module, ("materials", "contact", "fem"))
+    for name in package.__all__
+    if callable(getattr(package, name)) and not inspect.isabstract(getattr(package, name))
+]
+
+
+@pytest.mark.parametrize("item", HANDED_OUT)
+def test_what_a_package_hands_out_has_an_example(item):
+    assert ">>>" in (inspect.getdoc(item) or "")

@@ -40,8 +40,14 @@ def test_script_runs_and_leaves_its_picture(script, desk, one_process, monkeypat
 
 
 def test_every_file_is_in_the_table():
-    files = {path.name for path in EXAMPLES.iterdir() if path.suffix in (".py", ".toml")}
+    files = {path.name for path in EXAMPLES.iterdir() if path.suffix in (".py", ".toml", ".csv")}
     assert files == set(re.findall(r"^\| `([\w.]+)` \|", LISTED, flags=re.MULTILINE))
+
+
+def test_made_up_data_say_so_in_name_and_first_line():
+    for path in EXAMPLES.glob("*.csv"):
+        assert path.stem.startswith("synthetic")
+        assert path.read_text(encoding="utf-8").startswith("# SYNTHETIC")
 
 
 @pytest.mark.parametrize("script", SCRIPTS)

@@ -67,6 +67,14 @@ def fit_friction(
     -------
     FitResult
         ``values`` by the names of the law (and d1, d2_K), ``model`` a ThermalFriction.
+
+    Examples
+    --------
+    >>> from calibration.synthetic import synthetic_friction
+    >>> from contact import ExponentialFriction
+    >>> fit = fit_friction(synthetic_friction(ExponentialFriction()), law="exponential")
+    >>> round(fit.r2, 2)
+    1.0
     """
     if law not in LAWS:
         raise ValueError(f"law is {law!r}; expected one of {', '.join(LAWS)}")

@@ -39,6 +39,13 @@ class Case(Section):
     ----------
     block, rubber, road, friction, heat, loading, solver, output : Section
         The tables of the case file, in its units.
+
+    Examples
+    --------
+    >>> loading = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 50.0, "distance_mm": 10.0}
+    >>> case = Case.from_dict({"loading": loading}).with_overrides({"friction.law": "exponential"})
+    >>> case.friction.law, case.block.length_mm
+    ('exponential', 20.0)
     """
 
     loading: Loading

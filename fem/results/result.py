@@ -70,6 +70,17 @@ class Result:
         Lines of the run's log.
     bottom : BottomHistory or None
         Stick, slip and pressure along the bottom at every accepted step; none of a rigid block.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from fem import simulate
+    >>> case = Case.from_toml("examples/short.toml", {"loading.distance_mm": 0.1})
+    >>> with TemporaryDirectory() as folder:
+    ...     simulate(case).write(folder)
+    ...     read = Result.read(folder)
+    >>> float(read.history["sliding_distance_mm"].iloc[-1])
+    0.1
     """
 
     case: Case

@@ -23,6 +23,7 @@ from fem.results.result import (
     read_summary,
     read_table,
 )
+from validation.analysis.paper_numbers import ACCEPTED_K, MEASURED_TO_K
 from validation.measured.matching import (
     START_TOLERANCE_K,
     TOLERANCES,
@@ -42,7 +43,7 @@ _PRESSURE, _VELOCITY, _START = (
 _OVERHANG, _LEAST_COVERED = 0.05, 0.1
 #: Limits of the temperature error that are counted: the accuracy of the measurement (0.5 to 1 K)
 #: and what the paper calls sufficient (section 5.2) [K].
-LIMITS_K = (0.5, 1.0, 2.0)
+LIMITS_K = (*MEASURED_TO_K, ACCEPTED_K)
 ALL = "all"
 #: Columns of words that repeat from row to row.
 _WORDS = ("case", "variant", "compound", "law")

@@ -20,6 +20,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.data.tables import Table, read_table
+from fem.case.friction import LAWS
 from fem.results.surface_profile import excess_area, interior_peak
 from materials.arrays import FloatArray
 
@@ -27,7 +28,6 @@ from materials.arrays import FloatArray
 QUANTITIES = {"T_max_C": "°C", "A_T_K_mm": "K mm", "friction_coefficient": "-"}
 #: Temperature before the sliding where the file does not state it [deg C].
 START_C = 20.0
-LAWS = ("huemer", "exponential", "coulomb")
 
 #: Columns of numbers that a test has one value of.
 _NUMBERS = (
