@@ -8,24 +8,9 @@ import numpy as np
 
 from fem.results.result import Result
 from materials.units import ABSOLUTE_ZERO_C
+from validation.analysis import shape, warmth
 from validation.analysis.numbers import number
 from validation.analysis.paper_numbers import MEASURED_TO_K
-from validation.analysis.shape import (
-    detached_length,
-    extreme_place,
-    highest_pressure,
-    interior_pressure,
-    interior_traction,
-    rolled_length,
-    stress_extremes,
-)
-from validation.analysis.warmth import (
-    cell_rises,
-    half_space_depth,
-    heated_depth,
-    rise,
-    surface_gradient,
-)
 from validation.claims.claim import Numbers
 from validation.claims.evidence import Evidence
 
@@ -43,25 +28,25 @@ def mean_contact_pressure(evidence: Evidence) -> Numbers:
 def pressure_concentration(evidence: Evidence) -> Numbers:
     run = evidence.introductory
     return {
-        "highest_pressure_N_per_mm2": highest_pressure(run),
-        "highest_pressure_behind_N_per_mm2": interior_pressure(run),
+        "highest_pressure_N_per_mm2": shape.highest_pressure(run),
+        "highest_pressure_behind_N_per_mm2": shape.interior_pressure(run),
     }, {}
 
 
 def edge_is_held_back(evidence: Evidence) -> Numbers:
     run = evidence.introductory
     law, sliding = run.case.friction.plain_law(), abs(run.case.loading.velocity_mm_per_s)
-    p = highest_pressure(run)
+    p = shape.highest_pressure(run)
     edge = float(law.coefficient(p, sliding)) * p
-    return {"edge_N_per_mm2": edge, "behind_N_per_mm2": interior_traction(run)}, {}
+    return {"edge_N_per_mm2": edge, "behind_N_per_mm2": shape.interior_traction(run)}, {}
 
 
 def front_edge_curls(evidence: Evidence) -> Numbers:
-    return {"rolled_length_mm": rolled_length(evidence.introductory)}, {}
+    return {"rolled_length_mm": shape.rolled_length(evidence.introductory)}, {}
 
 
 def front_edge_detaches(evidence: Evidence) -> Numbers:
-    return {"detached_length_mm": detached_length(evidence.introductory)}, {}
+    return {"detached_length_mm": shape.detached_length(evidence.introductory)}, {}
 
 
 def temperature_peak_at_edge(evidence: Evidence) -> Numbers:
@@ -72,42 +57,42 @@ def temperature_peak_at_edge(evidence: Evidence) -> Numbers:
 
 def stress_peak_at_edge(evidence: Evidence) -> Numbers:
     run = evidence.introductory
-    stress, (along, up) = stress_extremes(run)[0], extreme_place(run, 0)
+    stress, (along, up) = shape.stress_extremes(run)[0], shape.extreme_place(run, 0)
     values = {"sigma_y_min_N_per_mm2": stress, "place_along": along, "place_up": up}
     return values, {"compression": -stress, "pressure": number(run, _PRESSURE)}
 
 
 def heated_layer_is_thin(evidence: Evidence) -> Numbers:
     run = evidence.introductory
-    return {"heated_depth_mm": heated_depth(run), "height_mm": run.case.block.height_mm}, {}
+    return {"heated_depth_mm": warmth.heated_depth(run), "height_mm": run.case.block.height_mm}, {}
 
 
 def gradients_are_steep(evidence: Evidence) -> Numbers:
     run = evidence.introductory
-    gradient = surface_gradient(run)
-    used_up = rise(run) / gradient if gradient > 0.0 else float("inf")
+    gradient = warmth.surface_gradient(run)
+    used_up = warmth.rise(run) / gradient if gradient > 0.0 else float("inf")
     values = {"gradient_K_per_mm": gradient, "used_up_within_mm": used_up}
-    return values, {"rise_K": rise(run), "height_mm": run.case.block.height_mm}
+    return values, {"rise_K": warmth.rise(run), "height_mm": run.case.block.height_mm}
 
 
 def diffusion_sets_the_depth(evidence: Evidence) -> Numbers:
     run = evidence.introductory
-    depth, expected = heated_depth(run), half_space_depth(run)
+    depth, expected = warmth.heated_depth(run), warmth.half_space_depth(run)
     slides = {v: next(iter(laws.values())) for v, laws in evidence.velocities.items()}
     time = [slide.case.loading.distance_mm / v for v, slide in slides.items()]
-    depths = [heated_depth(slide) for slide in slides.values()]
+    depths = [warmth.heated_depth(slide) for slide in slides.values()]
     exponent = float(np.polyfit(np.log(time), np.log(depths), 1)[0])
     values = {"heated_depth_mm": depth, "half_space_mm": expected, "exponent": exponent}
     return values, {"ratio": depth / expected}
 
 
 def most_rubber_is_cold(evidence: Evidence) -> Numbers:
-    rises, area = cell_rises(evidence.introductory)
+    rises, area = warmth.cell_rises(evidence.introductory)
     return {"cold_share": float(area[rises < MEASURED_TO_K[1]].sum() / area.sum())}, {}
 
 
 def constant_parameters_suffice(evidence: Evidence) -> Numbers:
-    rises, area = cell_rises(evidence.introductory)
+    rises, area = warmth.cell_rises(evidence.introductory)
     absolute = evidence.introductory.case.heat.ambient_C - ABSOLUTE_ZERO_C
     moduli = np.sort([model.initial_shear_modulus for model in evidence.rubbers.values()])
     return {
@@ -118,7 +103,7 @@ def constant_parameters_suffice(evidence: Evidence) -> Numbers:
 
 def _under_the_edge(run: Result) -> dict[str, float]:
     """Pressure, heat partition and gap conductance where the pressure is highest."""
-    p = highest_pressure(run)
+    p = shape.highest_pressure(run)
     partition = run.case.heat.partition_object()
     governing = float(partition.governing(p, number(run, _PRESSURE)))
     h = float(run.case.heat.conductance_object().conductance(p))

@@ -10,6 +10,7 @@ import numpy as np
 
 from fem.case.rubber import DEFAULT_COMPOUND
 from fem.results.result import Result
+from validation.analysis import rubber_curves, shape, warmth
 from validation.analysis.numbers import (
     CRITICAL_RANK_CORRELATION,
     ends,
@@ -20,20 +21,6 @@ from validation.analysis.numbers import (
     relative_range,
 )
 from validation.analysis.paper_numbers import MEASURED_TO_K, PAPER_N_PER_MM, SIMILAR
-from validation.analysis.rubber_curves import (
-    secant_shear_modulus,
-    stiffening,
-    stiffer_ranges,
-    upturn_stretch,
-)
-from validation.analysis.shape import (
-    amount_of_shear,
-    deformation,
-    extreme_place,
-    highest_pressure,
-    stress_extremes,
-)
-from validation.analysis.warmth import curve_difference, mean_difference, profiles
 from validation.claims.claim import Numbers
 from validation.claims.evidence import (
     LOAD,
@@ -59,7 +46,7 @@ def stress_fields_alike(evidence: Evidence) -> Numbers:
 
 
 def _variation(evidence: Evidence, which: int) -> Numbers:
-    found = [stress_extremes(run)[which] for run in evidence.compounds.values()]
+    found = [shape.stress_extremes(run)[which] for run in evidence.compounds.values()]
     lowest, highest = ends(found)
     extreme = partial(_away_from_the_platen, evidence, which)
     others = {"lowest": lowest, "highest": highest, "extreme": extreme}
@@ -71,7 +58,7 @@ highest_tension_varies = partial(_variation, which=1)
 
 
 def _following(evidence: Evidence, which: int) -> Numbers:
-    size = np.abs([stress_extremes(run)[which] for run in evidence.compounds.values()])
+    size = np.abs([shape.stress_extremes(run)[which] for run in evidence.compounds.values()])
     follows = rank_correlation(size, list(_moved(evidence).values()))
     others = {
         "size": abs(follows),
@@ -88,7 +75,7 @@ tension_does_not_follow_stiffness = partial(_following, which=1)
 def van_der_waals_deforms_less(evidence: Evidence) -> Numbers:
     models = {"van_der_waals": VAN_DER_WAALS, "yeoh": YEOH}
     values = {
-        f"{model}_series_{n}_mm": deformation(evidence.compounds[names[n]])
+        f"{model}_series_{n}_mm": shape.deformation(evidence.compounds[names[n]])
         for n in (1, 2)
         for model, names in models.items()
     }
@@ -112,7 +99,7 @@ def van_der_waals_is_less_stiff(evidence: Evidence) -> Numbers:
 
 def series_2_deforms_more(evidence: Evidence) -> Numbers:
     values = {
-        f"{model}_series_{n}_mm": deformation(evidence.compounds[name])
+        f"{model}_series_{n}_mm": shape.deformation(evidence.compounds[name])
         for model, names in _MODELS.items()
         for n, name in names.items()
     }
@@ -120,22 +107,28 @@ def series_2_deforms_more(evidence: Evidence) -> Numbers:
 
 
 def series_2_stiffens_later(evidence: Evidence) -> Numbers:
-    return {f"upturn_{name}": upturn_stretch(evidence.rubbers[name]) for name in _OF_BARS}, {}
+    return {
+        f"upturn_{name}": rubber_curves.upturn_stretch(evidence.rubbers[name]) for name in _OF_BARS
+    }, {}
 
 
 def late_upturn_is_the_reason(evidence: Evidence) -> Numbers:
     found = {}
     for model, names in _MODELS.items():
         one, two = (evidence.rubbers[names[series]] for series in (1, 2))
-        shear = amount_of_shear(evidence.compounds[names[1]])
+        shear = shape.amount_of_shear(evidence.compounds[names[1]])
         found[f"{model}_a"] = two.initial_shear_modulus / one.initial_shear_modulus
-        found[f"{model}_b"] = secant_shear_modulus(two, shear) / secant_shear_modulus(one, shear)
+        found[f"{model}_b"] = rubber_curves.secant_shear_modulus(
+            two, shear
+        ) / rubber_curves.secant_shear_modulus(one, shear)
     return found, {"displacement_ratios": partial(_displacement_ratios, evidence)}
 
 
 def material_leaves_temperature_curve(evidence: Evidence) -> Numbers:
     runs = evidence.compounds
-    means = {pair: mean_difference(*map(runs.__getitem__, pair)) for pair in combinations(runs, 2)}
+    means = {
+        pair: warmth.mean_difference(*map(runs.__getitem__, pair)) for pair in combinations(runs, 2)
+    }
     (one, other), most = max(means.items(), key=lambda item: item[1])
     without = max(value for pair, value in means.items() if MOONEY_RIVLIN not in pair)
     follows = _area_follows_deformation(evidence)
@@ -146,7 +139,7 @@ def material_leaves_temperature_curve(evidence: Evidence) -> Numbers:
         "follows": follows,
         "by_deformation_or_not": "by_deformation" if by_deformation else "not_by_deformation",
         "less_or_more": "less" if follows < 0.0 else "more",
-        "difference": partial(curve_difference, runs[one], runs[other]),
+        "difference": partial(warmth.curve_difference, runs[one], runs[other]),
     }
 
 
@@ -158,7 +151,7 @@ def curves_follow_deformation(evidence: Evidence) -> Numbers:
 def material_leaves_T_max(evidence: Evidence) -> Numbers:
     runs = list(evidence.compounds.values())
     lowest, highest = ends(numbers(runs, "T_max_C"))
-    anywhere = float(np.ptp(profiles(runs), axis=0).max())
+    anywhere = float(np.ptp(warmth.profiles(runs), axis=0).max())
     values = {"range_of_T_max_K": highest - lowest, "largest_range_K": anywhere}
     return values, {"lowest": lowest, "highest": highest}
 
@@ -177,7 +170,7 @@ def load_has_the_lowest_peak(evidence: Evidence) -> Numbers:
 
 
 def mooney_rivlin_does_not_stiffen(evidence: Evidence) -> Numbers:
-    found = {name: stiffening(model) for name, model in evidence.rubbers.items()}
+    found = {name: rubber_curves.stiffening(model) for name, model in evidence.rubbers.items()}
     others = min(value for name, value in found.items() if name != MOONEY_RIVLIN)
     values = {f"stiffening_{name}": value for name, value in found.items()}
     return values, {"mooney_rivlin": found[MOONEY_RIVLIN], "least_of_the_others": others}
@@ -265,7 +258,7 @@ def label(name: str) -> str:
 
 
 def _moved(evidence: Evidence) -> dict[str, float]:
-    return {name: deformation(run) for name, run in evidence.compounds.items()}
+    return {name: shape.deformation(run) for name, run in evidence.compounds.items()}
 
 
 def _load(run: Result) -> float:
@@ -273,7 +266,7 @@ def _load(run: Result) -> float:
 
 
 def _area_follows_deformation(evidence: Evidence) -> float:
-    """Rank correlation of A_T with the deformation over the sets [-]."""
+    """Rank correlation of A_T with the shape.deformation over the sets [-]."""
     area = numbers(evidence.compounds.values(), "A_T_K_mm")
     return rank_correlation(area, list(_moved(evidence).values()))
 
@@ -281,8 +274,8 @@ def _area_follows_deformation(evidence: Evidence) -> float:
 def _away_from_the_platen(evidence: Evidence, which: int) -> dict[str, Any]:
     """Where the extreme is, and what the lower half of the block has instead."""
     runs = list(evidence.compounds.values())
-    along, up = zip(*(extreme_place(run, which) for run in runs), strict=True)
-    lower = [stress_extremes(run, below=0.5)[which] for run in runs]
+    along, up = zip(*(shape.extreme_place(run, which) for run in runs), strict=True)
+    lower = [shape.stress_extremes(run, below=0.5)[which] for run in runs]
     return {
         "along": ends(along),
         "up": ends(up),
@@ -294,17 +287,19 @@ def _away_from_the_platen(evidence: Evidence, which: int) -> dict[str, Any]:
 
 def _stiffness_ratio(evidence: Evidence, series: int) -> float:
     """Secant shear modulus of van der Waals over that of Yeoh at the Yeoh block's shear [-]."""
-    shear = amount_of_shear(evidence.compounds[YEOH[series]])
+    shear = shape.amount_of_shear(evidence.compounds[YEOH[series]])
     waals, yeoh = (evidence.rubbers[names[series]] for names in (VAN_DER_WAALS, YEOH))
-    return secant_shear_modulus(waals, shear) / secant_shear_modulus(yeoh, shear)
+    return rubber_curves.secant_shear_modulus(waals, shear) / rubber_curves.secant_shear_modulus(
+        yeoh, shear
+    )
 
 
 def _moduli(evidence: Evidence, names: list[str]) -> dict[str, dict[str, float]]:
     """Secant shear modulus at the block's mean shear, and the initial one, by label [N/mm^2]."""
     found = {}
     for name in names:
-        shear, model = amount_of_shear(evidence.compounds[name]), evidence.rubbers[name]
-        secant = secant_shear_modulus(model, shear)
+        shear, model = shape.amount_of_shear(evidence.compounds[name]), evidence.rubbers[name]
+        secant = rubber_curves.secant_shear_modulus(model, shear)
         found[label(name)] = {"secant": secant, "G": model.initial_shear_modulus}
     return found
 
@@ -313,7 +308,7 @@ def _softness(evidence: Evidence, series: int) -> dict[str, Any]:
     """Moduli of both models of a series, and where van der Waals is the stiffer one."""
     names = [YEOH[series], VAN_DER_WAALS[series]]
     yeoh, waals = _moduli(evidence, names).values()
-    higher = stiffer_ranges(evidence.rubbers[names[1]], evidence.rubbers[names[0]])
+    higher = rubber_curves.stiffer_ranges(evidence.rubbers[names[1]], evidence.rubbers[names[0]])
     ranges = " and ".join(f"{low:.2f} to {high:.2f}" for low, high in higher)
     return {
         "yeoh": yeoh["secant"],
@@ -321,7 +316,7 @@ def _softness(evidence: Evidence, series: int) -> dict[str, Any]:
         "waals": waals["secant"],
         "waals_G": waals["G"],
         "where": f"an amount of shear of {ranges}" if ranges else "no amount of shear",
-        "shear": amount_of_shear(evidence.compounds[YEOH[series]]),
+        "shear": shape.amount_of_shear(evidence.compounds[YEOH[series]]),
     }
 
 
@@ -329,7 +324,7 @@ def _displacement_ratios(evidence: Evidence) -> dict[str, dict[str, float]]:
     """Displacement of series 2 over series 1, and what the initial moduli alone let expect."""
     found = {}
     for model, names in _MODELS.items():
-        moved = [deformation(evidence.compounds[names[series]]) for series in (1, 2)]
+        moved = [shape.deformation(evidence.compounds[names[series]]) for series in (1, 2)]
         G = [evidence.rubbers[names[series]].initial_shear_modulus for series in (1, 2)]
         found[model] = {"moved": moved[1] / moved[0], "G": G[0] / G[1]}
     return found
@@ -349,7 +344,7 @@ def _as_interior_maximum(bars: dict[str, Result]) -> dict[str, Any]:
 
 def _behind_the_peaks(bars: dict[str, Result], edge: dict[str, float]) -> dict[str, Any]:
     """How the peaks go with the pressure that makes them."""
-    p = [highest_pressure(run) for run in bars.values()]
+    p = [shape.highest_pressure(run) for run in bars.values()]
     return {"ends": ends(p), "follows": rank_correlation(p, list(edge.values()))}
 
 

@@ -9,17 +9,9 @@ from typing import Any
 import numpy as np
 
 from fem.results.result import Result
+from validation.analysis import warmth
 from validation.analysis.numbers import ends, number, numbers, relative_range
 from validation.analysis.paper_numbers import ACCEPTED_K, MEASURED_TO_K
-from validation.analysis.warmth import (
-    curve_difference,
-    mean_difference,
-    middle_temperature,
-    pressure_at_peak,
-    profiles,
-    rise,
-    start_temperature,
-)
 from validation.claims.claim import Numbers
 from validation.claims.evidence import EXPONENTIAL, HUEMER, LAWS, Evidence, Point
 from validation.drawing.compound_names import COMPOUND_LOOKS
@@ -31,7 +23,7 @@ LOW, HIGH = 0.2, 0.4
 def area_sees_the_shape(evidence: Evidence) -> Numbers:
     runs = list(evidence.compounds.values())
     area = relative_range(numbers(runs, "A_T_K_mm"))
-    return {"range_of_A_T": area, "range_of_rise": relative_range(map(rise, runs))}, {}
+    return {"range_of_A_T": area, "range_of_rise": relative_range(map(warmth.rise, runs))}, {}
 
 
 def course_is_the_same(evidence: Evidence) -> Numbers:
@@ -39,13 +31,13 @@ def course_is_the_same(evidence: Evidence) -> Numbers:
     for velocity in _velocities(evidence):
         points = [point for point in evidence.pressures if point.velocity == velocity]
         runs = [run for point in points for run in evidence.pressures[point].values()]
-        lowest = min(lowest, float(np.corrcoef(profiles(runs)).min()))
+        lowest = min(lowest, float(np.corrcoef(warmth.profiles(runs)).min()))
     return {"lowest_correlation": lowest}, {}
 
 
 def laws_give_similar_curves(evidence: Evidence) -> Numbers:
     runs = evidence.velocities
-    found = {v: mean_difference(laws[EXPONENTIAL], laws[HUEMER]) for v, laws in runs.items()}
+    found = {v: warmth.mean_difference(laws[EXPONENTIAL], laws[HUEMER]) for v, laws in runs.items()}
     worst = max(found, key=found.__getitem__)
     beyond = [f"{v:g} mm/s" for v, value in found.items() if value > MEASURED_TO_K[1]]
     return {f"mean_difference_at_{v:g}_mm_per_s_K": value for v, value in found.items()}, {
@@ -54,7 +46,9 @@ def laws_give_similar_curves(evidence: Evidence) -> Numbers:
         "beyond": ", ".join(beyond),
         "worst": f"{worst:g}",
         "gap": abs(_gap(runs[worst])),
-        "difference": partial(curve_difference, runs[worst][HUEMER], runs[worst][EXPONENTIAL]),
+        "difference": partial(
+            warmth.curve_difference, runs[worst][HUEMER], runs[worst][EXPONENTIAL]
+        ),
         "coefficients": partial(_coefficients, evidence),
     }
 
@@ -221,8 +215,10 @@ def _at_the_hottest(evidence: Evidence, velocity: float) -> dict[str, tuple[floa
     """Pressure at the hottest point, and what happens in the middle of the block instead."""
     pairs = _pairs(evidence, velocity).values()
     return {
-        "local": ends(pressure_at_peak(run) for pair in pairs for run in pair),
-        "middle": ends(middle_temperature(high) - middle_temperature(low) for low, high in pairs),
+        "local": ends(warmth.pressure_at_peak(run) for pair in pairs for run in pair),
+        "middle": ends(
+            warmth.middle_temperature(high) - warmth.middle_temperature(low) for low, high in pairs
+        ),
     }
 
 
@@ -250,6 +246,8 @@ def _coefficients(evidence: Evidence) -> dict[str, dict[str, float]]:
     for v, laws in evidence.velocities.items():
         for name, run in laws.items():
             T, law = number(run, "T_max_C"), run.case.friction.law_object()
-            cold, warm = (float(law.coefficient(0.3, v, t)) for t in (start_temperature(run), T))
+            cold, warm = (
+                float(law.coefficient(0.3, v, t)) for t in (warmth.start_temperature(run), T)
+            )
             found[f"{name} at {v:g}"] = {"cold": cold, "warm": warm, "T": T}
     return found

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from validation.analysis import shape, warmth
 from validation.analysis.numbers import ends, number, numbers, relative_range
 from validation.analysis.paper_numbers import BAR_STRAIN, DUMBBELL_STRAIN
-from validation.analysis.shape import deformation, largest_stretch
-from validation.analysis.warmth import rise
 from validation.claims.claim import Numbers
 from validation.claims.evidence import (
     EXPONENTIAL,
@@ -32,15 +31,15 @@ def coupling_matters(evidence: Evidence) -> Numbers:
 def material_decides_deformation(evidence: Evidence) -> Numbers:
     runs = list(evidence.compounds.values())
     return {
-        "range_of_displacement": relative_range(map(deformation, runs)),
+        "range_of_displacement": relative_range(map(shape.deformation, runs)),
         "range_of_friction_force": relative_range(numbers(runs, "friction_force_N_per_mm")),
-        "range_of_rise": relative_range(map(rise, runs)),
+        "range_of_rise": relative_range(map(warmth.rise, runs)),
     }, {}
 
 
 def lack_of_stiffening_is_the_reason(evidence: Evidence) -> Numbers:
-    load, mooney = (deformation(evidence.compounds[name]) for name in (LOAD, MOONEY_RIVLIN))
-    without = deformation(evidence.changed(case_keys("neo_hooke")))
+    load, mooney = (shape.deformation(evidence.compounds[name]) for name in (LOAD, MOONEY_RIVLIN))
+    without = shape.deformation(evidence.changed(case_keys("neo_hooke")))
     G = {name: evidence.rubbers[name].initial_shear_modulus for name in (LOAD, MOONEY_RIVLIN)}
     return {"load_mm": load, "mooney_rivlin_mm": mooney, "neo_hooke_mm": without}, {
         "share": (without - load) / (mooney - load),
@@ -63,7 +62,7 @@ def material_affects_stability(evidence: Evidence) -> Numbers:
 
 def test_data_matter(evidence: Evidence) -> Numbers:
     yeoh, waals = (
-        {n: deformation(evidence.compounds[name]) for n, name in names.items()}
+        {n: shape.deformation(evidence.compounds[name]) for n, name in names.items()}
         for names in (YEOH, VAN_DER_WAALS)
     )
     return {
@@ -73,7 +72,7 @@ def test_data_matter(evidence: Evidence) -> Numbers:
 
 
 def tests_must_cover_the_strain(evidence: Evidence) -> Numbers:
-    strain = {name: largest_stretch(run) - 1.0 for name, run in evidence.compounds.items()}
+    strain = {name: shape.largest_stretch(run) - 1.0 for name, run in evidence.compounds.items()}
     beyond = [name for name in strain if strain[name] > _tested_strain(name)]
     return {f"largest_strain_{name}": value for name, value in strain.items()}, {
         "sets_beyond": len(beyond),
@@ -104,7 +103,7 @@ def law_leaves_mechanics(evidence: Evidence) -> Numbers:
         for name, of in {
             "friction force": lambda runs: numbers(runs, "friction_force_N_per_mm"),
             "contact length": lambda runs: numbers(runs, "contact_length_mm"),
-            "displacement": lambda runs: [deformation(run) for run in runs],
+            "displacement": lambda runs: [shape.deformation(run) for run in runs],
         }.items()
     }
     return {name.replace(" ", "_"): value for name, value in off.items()}, off
