@@ -14,18 +14,29 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from fem.case.errors import CaseError
-from fem.files.interruption import gently, listening
-from fem.files.machine_faults import cause, one_line
-from fem.files.messages import BAD_INPUT, DONE, INTERRUPTED, NOT_CONVERGED, WARNED, say_of, warn
-from fem.files.terminal import lenient_streams, open_standard_descriptors
+from fem.case import CaseError
+from fem.files import (
+    BAD_INPUT,
+    DONE,
+    INTERRUPTED,
+    NOT_CONVERGED,
+    WARNED,
+    cause,
+    gently,
+    lenient_streams,
+    listening,
+    one_line,
+    open_standard_descriptors,
+    say_of,
+    warn,
+)
 from fem.results.output_folder import check_output_file, chosen_output, output_folder
 from validation.commands import add_arguments as add_paper_commands
 from validation.drawing import draw_missing
 
 if TYPE_CHECKING:
     from fem import Case
-    from fem.results.run_folder import RunFolder
+    from fem.results import RunFolder
 
 _STATUS_CODES = {"ok": DONE, "interrupted": INTERRUPTED}
 
@@ -121,8 +132,8 @@ def _add_accept_unusual(parser: argparse.ArgumentParser) -> None:
 def _load(arguments: argparse.Namespace) -> Case:
     """The case of a command that may run it: what cannot be is refused, what is unusual said."""
     from fem import Case
-    from fem.case.reading import parse_override
-    from fem.stepping.cost import refuse_unaffordable
+    from fem.case import parse_override
+    from fem.stepping import refuse_unaffordable
 
     overrides = dict(parse_override(text) for text in arguments.overrides)
     case = Case.from_toml(arguments.case, overrides)
@@ -159,8 +170,7 @@ def _add_strict(parser: argparse.ArgumentParser) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    from fem.results.checkpoint import CHECKPOINT_FILE
-    from fem.results.result import FIGURES_FOLDER, RUN_FILES
+    from fem.results import CHECKPOINT_FILE, FIGURES_FOLDER, RUN_FILES
 
     case = _load(arguments)
     directory = chosen_output(arguments.output, Path("results") / Path(arguments.case).stem)
@@ -171,9 +181,8 @@ def _run(arguments: argparse.Namespace) -> int:
 
 def _run_in(directory: Path, case: Case, arguments: argparse.Namespace) -> int:
     from fem import simulate
-    from fem.results.result import read_summary
-    from fem.results.run_folder import RunFolder
-    from fem.stepping.progress import RunProgress
+    from fem.results import RunFolder, read_summary
+    from fem.stepping import RunProgress
 
     folder = RunFolder(directory, case)
     checkpoint = folder.checkpoint
@@ -225,7 +234,7 @@ def _say_how_it_starts(found: str, folder: RunFolder, *, resume: bool) -> None:
 def _close(
     summary: dict[str, Any], directory: Path, said: Sequence[str], arguments: argparse.Namespace
 ) -> int:
-    from fem.results.checkpoint import CHECKPOINT_FILE
+    from fem.results import CHECKPOINT_FILE
 
     if not arguments.quiet:
         print(_summary_table(summary))
@@ -378,7 +387,7 @@ def _add_check(commands: Any) -> None:
 
 
 def _check(arguments: argparse.Namespace) -> int:
-    from fem.stepping.cost import estimated_cost
+    from fem.stepping import estimated_cost
 
     case = _load(arguments)
     heading = f"{arguments.case}, every key as it is used.\nA run: {estimated_cost(case)}."
@@ -398,11 +407,11 @@ def _add_template(commands: Any) -> None:
 
 def _template(arguments: argparse.Namespace) -> int:
     if arguments.kind == "study":
-        from fem.case.template import study_template
+        from fem.case import study_template
 
         sys.stdout.write(study_template())
     else:
-        from fem.case.template import case_template
+        from fem.case import case_template
 
         sys.stdout.write(case_template())
     return DONE

@@ -12,8 +12,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from fem.case.errors import CaseError
-from fem.files.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
+from fem.case import CaseError
+from fem.files import BAD_INPUT, DONE, NOT_CONVERGED, say_of
 from fem.results.output_folder import check_output_file, chosen_output, output_folder
 
 #: Figures and tables share a folder, since some are made of the same runs.

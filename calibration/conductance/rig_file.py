@@ -19,8 +19,7 @@ from typing import Any
 from calibration.conductance.heating_rig import HeatingRig, Thermocouple
 from calibration.data.errors import DataError
 from contact.conductance import ContactSurface
-from fem.case.errors import CaseError, describe
-from fem.case.reading import read_toml
+from fem.case import CaseError, describe, read_toml
 from materials.plausible import (
     PRESSURE,
     SOLID_CONDUCTIVITY,

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from calibration.fitting.stability import Stability
-from fem.files.atomic import write_text
+from fem.files import write_text
 
 
 class Fit(Protocol):

@@ -16,9 +16,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.data.tables import Table, read_table
-from fem.case.case import Case
-from fem.case.errors import CaseError
-from fem.results.surface_profile import EDGE_ZONE, interior_peak
+from fem.case import Case, CaseError
+from fem.results import EDGE_ZONE, interior_peak
 from materials.arrays import FloatArray
 
 #: What of a measured profile is compared: every point, or its highest interior temperature.

@@ -46,8 +46,7 @@ from calibration.partition.slides import (
     power,
 )
 from contact.partition import HeatPartition
-from fem.case.case import Case
-from fem.case.errors import CaseError
+from fem.case import Case, CaseError
 from fem.files.program_version import program_version
 from materials.arrays import FloatArray
 

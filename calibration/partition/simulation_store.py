@@ -10,11 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fem.case.case import Case
-from fem.results.columns import SURFACE
-from fem.results.outcome import OK
-from fem.results.result import SURFACE_FILE, read_summary, read_table
-from fem.results.run_folder import RunFolder
+from fem.case import Case
+from fem.results import OK, SURFACE, SURFACE_FILE, RunFolder, read_summary, read_table
 from fem.sweeps import StudyError, simulate_missing
 from materials.arrays import FloatArray
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from calibration.partition.data import Condition
 from calibration.partition.simulation_store import SimulationStore, Slide
 from contact.partition import HeatPartition
-from fem.case.case import Case
-from fem.results.surface_profile import EDGE_ZONE, interior_peak
+from fem.case import Case
+from fem.results import EDGE_ZONE, interior_peak
 from materials.arrays import FloatArray
 
 #: Smallest partition that is tried.

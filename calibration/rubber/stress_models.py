@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from fem.case.rubber import CONSTANTS
+from fem.case import CONSTANTS
 from materials.arrays import FloatArray
 from materials.hyperelastic import (
     MODES,

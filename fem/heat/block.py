@@ -25,9 +25,8 @@ from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import SuperLU, splu
 from skfem import Basis, ElementQuad1
 
-from fem.mesh.block import BlockMesh
-from fem.solvers.direct import SYMMETRIC
-from fem.solvers.stopwatch import Stopwatch
+from fem.mesh import BlockMesh
+from fem.solvers import SYMMETRIC, Stopwatch
 from materials.arrays import FloatArray
 from materials.thermal import ThermalProperties
 

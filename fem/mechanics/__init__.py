@@ -1,1 +1,20 @@
 """Mechanics of the block: elements, one implicit step with the road, damping of snaps."""
+
+from typing import TYPE_CHECKING
+
+from fem.files.faces import face
+
+if TYPE_CHECKING:
+    from fem.mechanics.elements import Past, Q1P0Elements
+    from fem.mechanics.regularisation import SnapDamping
+    from fem.mechanics.state import MechanicalState
+    from fem.mechanics.step import (
+        BlockMechanics,
+        Iterate,
+        StepEvaluation,
+        StepLoad,
+        StepProblem,
+        platen_displacement,
+    )
+else:
+    __getattr__ = face(__name__, __file__)

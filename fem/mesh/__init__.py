@@ -1,1 +1,11 @@
 """The mesh of the block and the node sets of its boundary."""
+
+from typing import TYPE_CHECKING
+
+from fem.files.faces import face
+
+if TYPE_CHECKING:
+    from fem.mesh.block import BlockMesh, block_mesh
+    from fem.mesh.grading import NAMED_GRADINGS, Grading
+else:
+    __getattr__ = face(__name__, __file__)

@@ -1,1 +1,38 @@
 """What a run leaves: tables, fields, checkpoints, how it ended, how far it can be trusted."""
+
+from typing import TYPE_CHECKING
+
+from fem.files.faces import face
+
+if TYPE_CHECKING:
+    from fem.results.bottom_history import BOTTOM_FILE, BottomHistory
+    from fem.results.boundary import BoundaryContact, boundary_table
+    from fem.results.checkpoint import CHECKPOINT_FILE, Checkpoint, CheckpointError, notes
+    from fem.results.columns import HISTORY, SUMMARY, SURFACE
+    from fem.results.fitted_window import (
+        contact_columns,
+        rubber_columns,
+        window_notes,
+        window_warnings,
+    )
+    from fem.results.outcome import INTERRUPTED, OK, Outcome, failed, stoppable
+    from fem.results.result import (
+        CASE_FILE,
+        FIGURES_FOLDER,
+        HISTORY_FILE,
+        RUN_FILES,
+        SUMMARY_CSV,
+        SUMMARY_JSON,
+        SURFACE_FILE,
+        Result,
+        joined,
+        read_summary,
+        read_table,
+    )
+    from fem.results.run_folder import FINAL, RunFolder
+    from fem.results.sliding_regime import STEADY
+    from fem.results.snapshot import BlockGeometry, Snapshot
+    from fem.results.surface_profile import EDGE_ZONE, excess_area, interior_peak
+    from fem.results.trust import judged
+else:
+    __getattr__ = face(__name__, __file__)

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fem.mesh.block import BlockMesh
+from fem.mesh import BlockMesh
 from materials.arrays import FloatArray
 
 #: What the names of the chains on the road begin with.

@@ -17,11 +17,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from fem.case.case import Case
-from fem.case.errors import CaseError, describe
-from fem.files.atomic import replacing
-from fem.files.machine_faults import cause
-from fem.files.packing import PackingError, pack, unpack
+from fem.case import Case, CaseError, describe
+from fem.files import PackingError, cause, pack, replacing, unpack
 from fem.files.program_version import program_version
 from materials.arrays import AnyArray
 

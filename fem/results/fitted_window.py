@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.case.case import Case
-from fem.case.window import ContactWindow
+from fem.case import Case, ContactWindow
 from materials.arrays import FloatArray
 
 Rows = Sequence[Mapping[str, Any]]

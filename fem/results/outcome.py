@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from fem.files.interruption import at_step_ends
-from fem.files.machine_faults import OUT_OF_MEMORY
+from fem.files import OUT_OF_MEMORY, at_step_ends
 from fem.newton import Failure
 
 OK = "ok"

@@ -10,9 +10,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from fem.case.errors import CaseError
-from fem.files.atomic import remove_remains
-from fem.files.machine_faults import cause
+from fem.case import CaseError
+from fem.files import cause, remove_remains
 
 if sys.platform != "win32":  # where nothing keeps two programs apart
     import fcntl

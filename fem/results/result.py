@@ -12,10 +12,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fem.case.case import Case
-from fem.case.errors import describe
-from fem.files import spreadsheet
-from fem.files.atomic import staged_directory
+from fem.case import Case, describe
+from fem.files import spreadsheet, staged_directory
 from fem.results.bottom_history import BOTTOM_FILE, BottomHistory
 from fem.results.boundary import surface_table
 from fem.results.columns import BOUNDARY, HISTORY, SUMMARY, SURFACE, in_order

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from fem.case.case import Case
-from fem.case.errors import CaseError, describe
-from fem.files.atomic import staged_directory
+from fem.case import Case, CaseError, describe
+from fem.files import staged_directory
 from fem.files.program_version import program_version
 from fem.results.checkpoint import (
     CHECKPOINT_FILE,

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from fem.case.case import Case
-from fem.heat.state import HeatState
-from fem.results.bottom_history import BottomHistory
-from fem.results.snapshot import Snapshot
+from fem.case import Case
+from fem.heat import HeatState
+from fem.results import BottomHistory, Snapshot
 from fem.stepping.audit import EnergyAudit
 from fem.stepping.coupled_step import CoupledState
 from fem.stepping.step_control import StepPlan

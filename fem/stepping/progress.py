@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from fem.case.case import Case
-from fem.files.interruption import requested
+from fem.case import Case
+from fem.files import requested
 
 _BAR = "{percentage:3.0f} %|{bar}| {n:.1f}/{total:g} mm [{elapsed}<{remaining}]{postfix}"
 

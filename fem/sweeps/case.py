@@ -16,15 +16,22 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from fem.case.case import Case
-from fem.files.atomic import write_text
-from fem.files.machine_faults import cause, one_line
+from fem.case import Case
+from fem.files import cause, one_line, write_text
 from fem.files.program_version import program_version
-from fem.results.checkpoint import CHECKPOINT_FILE, CheckpointError
-from fem.results.outcome import INTERRUPTED
+from fem.results import (
+    CASE_FILE,
+    CHECKPOINT_FILE,
+    FIGURES_FOLDER,
+    FINAL,
+    INTERRUPTED,
+    RUN_FILES,
+    CheckpointError,
+    Result,
+    RunFolder,
+    read_summary,
+)
 from fem.results.output_folder import output_folder
-from fem.results.result import CASE_FILE, FIGURES_FOLDER, RUN_FILES, Result, read_summary
-from fem.results.run_folder import FINAL, RunFolder
 from fem.simulation import simulate
 
 RUNS_FOLDER = "runs"

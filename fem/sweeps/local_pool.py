@@ -21,7 +21,7 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import Any, Generic, TypeVar
 
-from fem.files.interruption import listening
+from fem.files import listening
 
 T = TypeVar("T")
 R = TypeVar("R")

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fem.results.outcome import OK
-from fem.results.result import SUMMARY_CSV
+from fem.results import OK, SUMMARY_CSV
 
 _BAR = "{n_fmt}/{total_fmt} cases |{bar}| {elapsed}{postfix}"
 _REDRAW_S = 1.0

@@ -8,10 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fem.case.case import Case
-from fem.case.errors import CaseError
-from fem.results.result import Result
-from fem.results.run_folder import RunFolder
+from fem.case import Case, CaseError
+from fem.results import Result, RunFolder
 from fem.sweeps.case import FAILED, RUNS_FOLDER, SweepTask
 from fem.sweeps.progress import SweepBar, SweepProgress
 from fem.sweeps.study import StudyCase

@@ -19,9 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
-from fem.case.case import Case
-from fem.case.errors import CaseError, describe, suggestion
-from fem.case.reading import read_toml
+from fem.case import Case, CaseError, describe, read_toml, suggestion
 
 _LONGEST_NAME = 120
 _KEYS = ("base", "grid", "case", "names")

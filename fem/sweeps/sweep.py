@@ -7,11 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from fem.case.case import Case
-from fem.case.errors import CaseError
+from fem.case import Case, CaseError
+from fem.results import SUMMARY_CSV
 from fem.results.output_folder import output_folder
-from fem.results.result import SUMMARY_CSV
-from fem.stepping.cost import duration, estimated_cost, refuse_unaffordable
+from fem.stepping import duration, estimated_cost, refuse_unaffordable
 from fem.sweeps.case import RUNS_FOLDER, CaseOutcome, Draw, SweepTask, earlier_outcome
 from fem.sweeps.progress import SweepProgress
 from fem.sweeps.study import Study, StudyCase, read_study

@@ -9,10 +9,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from fem.files import spreadsheet
-from fem.files.atomic import write_text
-from fem.results.columns import SUMMARY
-from fem.results.result import SUMMARY_CSV, joined
+from fem.files import spreadsheet, write_text
+from fem.results import SUMMARY, SUMMARY_CSV, joined
 from fem.sweeps.case import CaseOutcome, SweepTask
 from fem.sweeps.study import StudyCase
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from fem.case.errors import CaseError
+from fem.case import CaseError
 from fem.sweeps.case import FAILED, CaseOutcome, SweepTask, run_task
 from fem.sweeps.local_pool import LocalPool, local_pool
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.stats import spearmanr
 
-from fem.results.result import Result
+from fem.results import Result
 
 #: Smallest of Spearman's rank correlations of six pairs that is significant at the 5 % level (two
 #: sides, from all 720 orders, which a test counts), less what rounding may take.

@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fem.results.result import Result
-from fem.results.surface_profile import EDGE_ZONE
+from fem.results import EDGE_ZONE, Result
 from materials.arrays import FloatArray
 from validation.drawing.field_panels import BlockState
 from validation.drawing.state_panels import last_state

@@ -8,8 +8,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import erfc
 
-from fem.results.result import Result
-from fem.results.surface_profile import interior_peak
+from fem.results import Result, interior_peak
 from materials.arrays import FloatArray
 from validation.analysis.numbers import number
 from validation.drawing.block_drawing import cell_areas

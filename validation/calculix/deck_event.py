@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from fem.case.case import Case
-from fem.mesh.block import BlockMesh
+from fem.case import Case
+from fem.mesh import BlockMesh
 from validation.calculix.deck_material import numbers
 
 #: Deck time of pressing [-].

@@ -14,8 +14,7 @@ References
 
 from __future__ import annotations
 
-from fem.case.case import Case
-from fem.case.errors import CaseError
+from fem.case import Case, CaseError
 from materials.hyperelastic import Hyperelastic, MooneyRivlin, NeoHooke, Yeoh
 from materials.ogden import Ogden
 

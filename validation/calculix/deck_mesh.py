@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem.mesh.block import BlockMesh
+from fem.mesh import BlockMesh
 from materials.arrays import FloatArray, IntArray
 from validation.calculix.deck_material import numbers
 

@@ -25,11 +25,10 @@ from pathlib import Path
 from typing import Literal
 
 from contact.friction import CoulombFriction
-from fem.case.case import Case
-from fem.case.errors import CaseError
-from fem.files.atomic import write_text
-from fem.mesh.block import BlockMesh
-from fem.stepping.model_parts import mesh_of
+from fem.case import Case, CaseError
+from fem.files import write_text
+from fem.mesh import BlockMesh
+from fem.stepping import mesh_of
 from validation.calculix.deck_event import PRESSING_TIME, event_lines
 from validation.calculix.deck_material import hyperelastic_card, numbers
 from validation.calculix.deck_mesh import block_lines, free_surface_lines, road_lines, tie_lines

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from fem.results.result import Result
+from fem.results import Result
 from validation.claims.evidence import Evidence, UnfinishedError
 from validation.claims.phrases import say
 from validation.claims.statements import CHANGES, LIMITS, case_keys

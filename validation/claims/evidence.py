@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact.friction import ExponentialFriction, HuemerFriction
-from fem.results.result import Result
+from fem.results import Result
 from fem.sweeps import StudyRun, study_runs
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Hyperelastic

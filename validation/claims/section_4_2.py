@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from fem.results.result import Result
+from fem.results import Result
 from materials.units import ABSOLUTE_ZERO_C
 from validation.analysis import shape, warmth
 from validation.analysis.numbers import number

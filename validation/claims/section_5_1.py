@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from fem.case.rubber import DEFAULT_COMPOUND
-from fem.results.result import Result
+from fem.case import DEFAULT_COMPOUND
+from fem.results import Result
 from validation.analysis import rubber_curves, shape, warmth
 from validation.analysis.numbers import (
     CRITICAL_RANK_CORRELATION,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fem.results.result import Result
+from fem.results import Result
 from validation.analysis import warmth
 from validation.analysis.numbers import ends, number, numbers, relative_range
 from validation.analysis.paper_numbers import ACCEPTED_K, MEASURED_TO_K

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.files.atomic import write_text
+from fem.files import write_text
 from validation.claims.evidence import Evidence
 from validation.claims.ledger import ledger_table
 from validation.claims.text import ledger_text

@@ -10,10 +10,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fem.case.case import Case
-from fem.results.columns import HISTORY
-from fem.results.result import HISTORY_FILE, read_table
-from fem.results.run_folder import RunFolder
+from fem.case import Case
+from fem.results import HISTORY, HISTORY_FILE, RunFolder, read_table
 from fem.sweeps import RUNS_FOLDER, StudyCase
 from validation.studies import cases_of
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from fem.files.atomic import write_text
+from fem.files import write_text
 
 TABLE = Path(__file__).parents[1] / "robustness.csv"
 #: What was varied, under shorter names.

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fem.case.case import Solver
+from fem.case import Solver
 from validation.convergence.onset import (
     ONSET_MM,
     SweptRun,

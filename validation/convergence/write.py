@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from fem.files.atomic import write_text
+from fem.files import write_text
 from validation.convergence.onset import swept_runs
 from validation.convergence.robustness import TABLE as ROBUSTNESS
 from validation.convergence.table import CONVERGENCE, ONSET, convergence_table, onset_table

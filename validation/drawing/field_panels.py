@@ -12,7 +12,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from fem.results.snapshot import BlockGeometry, Snapshot
+from fem.results import BlockGeometry, Snapshot
 from materials.arrays import FloatArray
 from validation.drawing.block_drawing import (
     Window,

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from fem.results.bottom_history import BottomHistory
+from fem.results import BottomHistory
 from materials.arrays import FloatArray
 from validation.drawing.style import BLUE, GREY, ORANGE, PAGE_WIDTH, STRESS_MAP, new_figure, styled
 

@@ -7,9 +7,17 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
-from fem.results.bottom_history import BOTTOM_FILE, BottomHistory
-from fem.results.columns import HISTORY, SURFACE
-from fem.results.result import HISTORY_FILE, SURFACE_FILE, Result, read_summary, read_table
+from fem.results import (
+    BOTTOM_FILE,
+    HISTORY,
+    HISTORY_FILE,
+    SURFACE,
+    SURFACE_FILE,
+    BottomHistory,
+    Result,
+    read_summary,
+    read_table,
+)
 from validation.drawing.history_panels import (
     draw_contact,
     draw_forces,

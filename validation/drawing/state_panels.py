@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from fem.results.result import Result
+from fem.results import Result
 from validation.drawing.field_panels import (
     BlockState,
     Panel,

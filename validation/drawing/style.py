@@ -14,7 +14,7 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from fem.files.atomic import replacing
+from fem.files import replacing
 
 _P = ParamSpec("_P")
 _R = TypeVar("_R")

@@ -11,14 +11,13 @@ import numpy as np
 import pandas as pd
 
 from calibration.data.errors import DataError
-from fem.case.case import Case
-from fem.case.errors import CaseError, describe
-from fem.results.columns import SURFACE
-from fem.results.outcome import OK
-from fem.results.result import (
+from fem.case import Case, CaseError, describe
+from fem.results import (
     CASE_FILE,
+    OK,
     SUMMARY_CSV,
     SUMMARY_JSON,
+    SURFACE,
     SURFACE_FILE,
     read_summary,
     read_table,

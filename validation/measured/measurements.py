@@ -20,8 +20,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.data.tables import Table, read_table
-from fem.case.friction import LAWS
-from fem.results.surface_profile import excess_area, interior_peak
+from fem.case import LAWS
+from fem.results import excess_area, interior_peak
 from materials.arrays import FloatArray
 
 #: What is compared, with its unit.

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import ConnectionPatch, Rectangle
 
-from fem.case.case import Case
-from fem.mesh.block import BlockMesh
+from fem.case import Case
+from fem.mesh import BlockMesh
 from fem.simulation import mesh_of
 from validation.drawing.block_drawing import (
     Window,

@@ -7,7 +7,7 @@ from pathlib import Path
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from fem.results.result import Result
+from fem.results import Result
 from validation.drawing.history_panels import draw_friction, draw_temperature
 from validation.drawing.state_panels import WIDTHS, draw_fields, last_state, reached
 from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.case.case import Case
-from fem.results.result import Result
-from fem.results.run_folder import RunFolder
+from fem.case import Case
+from fem.results import Result, RunFolder
 from fem.sweeps import read_run, simulate_missing
 from validation.studies import BASES
 

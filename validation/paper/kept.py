@@ -16,7 +16,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from fem.files.atomic import write_text
+from fem.files import write_text
 from fem.files.program_version import ROOT, fingerprint, program_version
 
 _FOLDERS = (ROOT / "calibration", ROOT / "validation")

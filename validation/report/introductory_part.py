@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fem.case.case import Case
-from fem.results.run_folder import RunFolder
+from fem.case import Case
+from fem.results import RunFolder
 from validation.paper.introductory import introductory_case
 
 #: Results that are shown: key of the summary to its name, unit and format.

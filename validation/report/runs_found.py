@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 
-from fem.results.result import SUMMARY_JSON, read_summary
+from fem.results import SUMMARY_JSON, read_summary
 
 
 def programs_of_runs(directory: Path) -> list[tuple[str, int]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.files.atomic import write_text
+from fem.files import write_text
 from validation.report.made_with import made_with
 from validation.report.page import find_page, render
 

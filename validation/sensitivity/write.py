@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.files.atomic import write_text
+from fem.files import write_text
 from fem.sweeps import study_runs
 from validation.drawing.style import save
 from validation.sensitivity.table import sensitivity_table
