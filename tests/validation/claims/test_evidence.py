@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -20,15 +21,18 @@ from validation.paper.table4 import PAPER_N_PER_MM
 from validation.studies import BASES, cases_of
 
 
-@pytest.fixture
-def evidence(tmp_path, monkeypatch) -> Evidence:
+@pytest.fixture(scope="module")
+def evidence(tmp_path_factory) -> Iterator[Evidence]:
     """Evidence whose studies are read from their files and answered with made-up runs."""
 
-    def runs(cases, directory):
-        return [replace(made_up_run(), study_case=case, result=made_up_result()) for case in cases]
+    result = made_up_result()
 
-    monkeypatch.setattr("validation.claims.evidence.study_runs", runs)
-    return Evidence(tmp_path)
+    def runs(cases, directory):
+        return [replace(made_up_run(), study_case=case, result=result) for case in cases]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("validation.claims.evidence.study_runs", runs)
+        yield Evidence(tmp_path_factory.mktemp("figures"))
 
 
 def test_runs_are_found_by_what_tells_them_apart(evidence):
