@@ -7,6 +7,7 @@ import shlex
 import shutil
 import subprocess
 import tomllib
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,8 @@ import treadfem
 from fem.case.case import Case
 from fem.case.friction import LAWS
 from fem.case.rubber import CONSTANTS
+from fem.results.columns import BOUNDARY, HISTORY, SUMMARY, SURFACE
+from fem.results.snapshot import Snapshot
 from tests.documents import PAGES, ROOT, TEXT
 
 LOADING = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300.0, "distance_mm": 1.0}
@@ -78,6 +81,27 @@ def test_every_page_is_linked_from_the_readme():
     pages = {f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md")}
     assert pages == {str(page.relative_to(ROOT)) for page in PAGES[1:]}
     assert [page for page in sorted(pages) if f"]({page})" not in readme] == []
+
+
+@pytest.mark.parametrize(
+    "table, columns",
+    [
+        ("history.csv", HISTORY),
+        ("surface.csv", SURFACE),
+        ("boundary.csv", BOUNDARY),
+        ("summary.csv", SUMMARY),
+    ],
+)
+def test_columns_of_a_table_are_listed_in_order(table, columns):
+    files = (ROOT / "docs/files.md").read_text(encoding="utf-8")
+    (line,) = re.findall(rf"^\| `{table}` \| (`.*`) \|$", files, flags=re.MULTILINE)
+    assert re.findall(r"`(\w+)`", line) == list(columns)
+
+
+def test_arrays_of_the_field_file_are_listed():
+    files = (ROOT / "docs/files.md").read_text(encoding="utf-8")
+    missing = [part.name for part in fields(Snapshot) if f"`{part.name}_0`" not in files]
+    assert missing == []
 
 
 def test_theory_names_every_model_and_law():
