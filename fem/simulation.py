@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from fem.case.case import Case
 from fem.files.program_version import program_version
 from fem.heat.model import HeatModel
 from fem.mechanics.elements import Q1P0Elements
-from fem.mechanics.regularisation import SnapDamping
+from fem.mechanics.regularisation import snap_damping
 from fem.mechanics.step import BlockMechanics
 from fem.mesh.block import BlockMesh
 from fem.results.checkpoint import Checkpoint, notes
@@ -65,12 +66,12 @@ FIRST_PASS_TOLERANCE = 1e-4
 
 def coupled_model(case: Case) -> CoupledModel:
     """Mechanics, heat and contact laws of a case."""
-    mesh, rubber, solver = mesh_of(case), case.rubber.model(), case.solver
+    mesh, rubber, solver = mesh_of(case), case.rubber, case.solver
     force = case.loading.mean_pressure_N_per_mm2 * case.block.length_mm
     mechanics = BlockMechanics(
         mesh,
-        Q1P0Elements(mesh, rubber, case.rubber.bulk_modulus),
-        density=case.rubber.thermal.density if solver.inertia else 0.0,
+        Q1P0Elements(mesh, rubber.material(), rubber.bulk_modulus),
+        density=rubber.thermal.density if solver.inertia else 0.0,
         top=case.loading.top,
         tolerance=solver.tolerance * force,
         solver=linear_solver(solver.linear_solver, 2 * len(mesh.points)),
@@ -84,12 +85,13 @@ def coupled_model(case: Case) -> CoupledModel:
         mechanics,
         HeatModel.from_case(case, mesh),
         laws,
-        damping=SnapDamping.from_case(case, mesh),
+        damping=snap_damping(case, mesh),
         mean_pressure=case.loading.mean_pressure_N_per_mm2,
         friction_passes=solver.friction_passes,
         options=newton.NewtonOptions(iterations_max=solver.newton_iterations_max),
         first_merit=FIRST_PASS_TOLERANCE / solver.tolerance,
         self_contact=self_contact_of(case, mesh),
+        rubber_heats=rubber.viscoelastic is not None and rubber.viscoelastic.heats,
     )
 
 
@@ -190,6 +192,8 @@ class _Run:
         if number < self.point.phase:
             return Outcome(status=OK)
         control = StepController(step_max=phase.step_max, step_min=phase.step_min)
+        if self.model.damping is None:  # steps that fail can only be cut
+            control = replace(control, enough_help=0.0)
         plan, at = StepPlan(step=phase.step_initial), 0.0
         if number == self.point.phase:
             plan, at = self.point.plan, self.point.at

@@ -77,6 +77,13 @@ class Case(Section):
                 str(self.heat.ambient_C),
                 f"above {pole:.6g}, where the WLF shift of [friction] ends",
             )
+        memory = self.rubber.viscoelastic
+        if memory is not None and self.heat.ambient_C <= memory.pole_C:
+            refuse(
+                "heat.ambient_C",
+                str(self.heat.ambient_C),
+                f"above {memory.pole_C:.6g}, where the shift of [rubber] viscoelastic ends",
+            )
         return self
 
     def _refuse_negative_friction(self) -> None:

@@ -19,6 +19,7 @@ from fem.case.base import (
     refuse_sentence,
 )
 from fem.case.errors import describe, suggestion
+from fem.case.memory import Mullins, Viscoelastic
 from fem.case.window import RubberWindow
 from materials.compounds import COMPOUNDS, compound
 from materials.hyperelastic import (
@@ -29,6 +30,7 @@ from materials.hyperelastic import (
     VanDerWaals,
     Yeoh,
 )
+from materials.material import Material
 from materials.ogden import Ogden
 from materials.plausible import (
     CONDUCTIVITY,
@@ -38,6 +40,7 @@ from materials.plausible import (
     Finding,
     judge,
 )
+from materials.rubber import Rubber as RememberingRubber
 from materials.thermal import ThermalProperties
 
 DEFAULT_COMPOUND = "yeoh-bars-series-1-load"
@@ -87,6 +90,12 @@ class Rubber(Section):
         None, description="Ogden, moduli whose sum is the shear modulus [N/mm^2]"
     )
     alpha: list[Constant] | None = Field(None, description="Ogden, exponents of the stretches [-]")
+    viscoelastic: Viscoelastic | None = Field(
+        None, description="Maxwell branches: a table with g and tau_s"
+    )
+    mullins: Mullins | None = Field(
+        None, description="softening by the largest load so far: a table with r and m_N_per_mm2"
+    )
     window: RubberWindow | None = Field(
         None, description="range the law was fitted to; a run says what leaves it"
     )
@@ -162,6 +171,16 @@ class Rubber(Section):
                 for key, value in constants.items()
                 if value is not None
             }
+        )
+
+    def material(self) -> Material:
+        """Build the material of the elements: the law, with its memory where it has one."""
+        if self.viscoelastic is None and self.mullins is None:
+            return self.model()
+        return RememberingRubber(
+            elastic=self.model(),
+            viscous=None if self.viscoelastic is None else self.viscoelastic.prony(),
+            damage=None if self.mullins is None else self.mullins.softening(),
         )
 
     @property

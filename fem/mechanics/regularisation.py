@@ -65,3 +65,9 @@ class SnapDamping:
         if level == 0.0 or not self.strength.any():
             return None
         return level / motion * self.strength
+
+
+def snap_damping(case: Case, mesh: BlockMesh) -> SnapDamping | None:
+    """Damping of a case; None where it has none or its rubber damps the snaps itself."""
+    damping = SnapDamping.from_case(case, mesh)
+    return damping if damping.strength.any() else None
