@@ -17,7 +17,7 @@ from fem.case.case import Case
 from fem.files.program_version import program_version
 from fem.heat.model import HeatModel
 from fem.mechanics.elements import Q1P0Elements
-from fem.mechanics.regularisation import snap_damping
+from fem.mechanics.regularisation import damping_lines, snap_damping
 from fem.mechanics.step import BlockMechanics
 from fem.mesh.block import BlockMesh
 from fem.results.checkpoint import Checkpoint, notes
@@ -91,7 +91,7 @@ def coupled_model(case: Case) -> CoupledModel:
         options=newton.NewtonOptions(iterations_max=solver.newton_iterations_max),
         first_merit=FIRST_PASS_TOLERANCE / solver.tolerance,
         self_contact=self_contact_of(case, mesh),
-        rubber_heats=rubber.viscoelastic is not None and rubber.viscoelastic.heats,
+        rubber_heats=rubber.viscoelastic is None or rubber.viscoelastic.heats,
     )
 
 
@@ -128,7 +128,7 @@ class _Run:
         self.iterations = self.rejected = 0
         self.log = [f"{case.block.length_mm:g} x {case.block.height_mm:g} mm block, "
                     f"{len(self.model.mechanics.mesh.cells)} elements",
-                    case.friction.described()]  # fmt: skip
+                    case.friction.described(), *damping_lines(case)]  # fmt: skip
         self.snapshot_distances = snapshots_due(case)
         self.point = self._point(-1, 0.0, StepPlan(step=0.0))
 
@@ -366,6 +366,8 @@ def _summary(run: _Run, outcome: Outcome) -> dict[str, Any]:
         "rejected_steps": run.rejected,
         "regularisation_share_with_onset": run.audit.regularisation_share,
         "snap_share": run.audit.snap_share,
+        "rubber_dissipation_share": run.audit.rubber_share,
+        "damage_share": run.audit.damage_share,
         "friction_lag_error": largest(history, "friction_lag_error"),
         "friction_lag_share": lag_share(history),
         "largest_self_penetration": largest(history, "self_contact_penetration"),

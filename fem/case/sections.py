@@ -154,9 +154,14 @@ class Solver(Section):
         2, description="passes per step over the lagged friction coefficient [-]"
     )
     inertia: bool = Field(True, description="backward-Euler inertia of the rubber")
+    snap_damping: Literal["auto", "always", "never"] = Field(
+        "auto",
+        description='damping of steps without a solution: "auto": unless viscoelastic rubber damps '
+        'the snaps of the edge itself; "always"; "never"',
+    )
     viscous_distance_mm: _ViscousDistance = Field(
         0.05,
-        description="damping of steps without a solution: relaxation time times velocity [mm]",
+        description="relaxation time of that damping times velocity [mm]",
     )
     edge_viscous_distance_mm: _ViscousDistance = Field(
         5.0, description="the same, added at the leading corner [mm]"

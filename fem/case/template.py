@@ -18,6 +18,8 @@ Instead of a compound, [rubber] takes a model with its constants:
     model = "van-der-waals"   G_N_per_mm2, lambda_m, a, beta
     model = "arruda-boyce"    C1_N_per_mm2, lambda_m
     model = "ogden"           mu_N_per_mm2 and alpha, arrays with an entry per term
+and may remember: viscoelastic = {g = [0.5, 0.2], tau_s = [1e-3, 1e-1]} (moduli, heats, C1, C2_K,
+    T_ref_C), mullins = {r = 2.0, m_N_per_mm2 = 0.1, beta = 0.1}.
 [friction] takes law = "exponential" with A, B, C, or law = "coulomb" with mu.
 [rubber], [friction] and [heat] also take parameters = "file.toml", the result of a calibration;
 a relative name is relative to this file, and keys given here win over those given there.

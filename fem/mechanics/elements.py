@@ -317,6 +317,10 @@ class Q1P0Elements:
         """Integral over the block of a density (ne, 4) per reference volume; 0 of None."""
         return 0.0 if density is None else float(np.sum(self.weights * density))
 
+    def mean(self, density: FloatArray) -> FloatArray:
+        """Means of a density (ne, 4) over the elements, (ne,)."""
+        return np.asarray(np.sum(self.weights * density, axis=1) / self.volume)
+
     def nodal_integral(self, density: FloatArray) -> FloatArray:
         """Integrals over the block of a density (ne, 4) times the shape functions, (n,)."""
         parts = (self.weights * density) @ self._shapes.T

@@ -13,6 +13,8 @@ edge back while the block slides on, which leads to another of its equilibria; t
 become small. The default weighs both (`make convergence` goes to a hundredth of it). What it
 dissipates is audited: `snap_share` in the steps that had no solution without,
 `regularisation_share` in those through which it fades.
+
+Viscoelastic rubber that loses enough at the rate of the snaps carries them itself: it gets none.
 """
 
 from __future__ import annotations
@@ -27,6 +29,11 @@ from fem.case.case import Case
 from fem.mesh.block import BlockMesh
 
 FloatArray = NDArray[np.float64]
+
+#: Loss modulus at the rate of the snaps, over the slow shear modulus, from which on the rubber
+#: needs no help: with 0.27 the introductory example takes its snaps in steps of some micrometres,
+#: with 0.1 it takes four times as many and comes near the shortest one.
+ENOUGH_LOSS = 0.2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,5 +76,42 @@ class SnapDamping:
 
 def snap_damping(case: Case, mesh: BlockMesh) -> SnapDamping | None:
     """Damping of a case; None where it has none or its rubber damps the snaps itself."""
+    choice = case.solver.snap_damping
+    if choice == "never" or (choice == "auto" and rubber_loss(case) >= ENOUGH_LOSS):
+        return None
     damping = SnapDamping.from_case(case, mesh)
     return damping if damping.strength.any() else None
+
+
+def rubber_loss(case: Case) -> float:
+    """Loss modulus of the rubber's branches at the rate of the snaps, over the slow modulus [-]."""
+    viscoelastic = case.rubber.viscoelastic
+    if viscoelastic is None:
+        return 0.0
+    spectrum = viscoelastic.prony()
+    shift = float(spectrum.shift_factor(case.heat.ambient_C))
+    loss = spectrum.harmonic_moduli(shift / snap_time(case))[1]
+    return float(loss) / spectrum.slow_share
+
+
+def snap_time(case: Case) -> float:
+    """Time in which a shear wave crosses the fold of the leading edge [s]."""
+    G, density = case.rubber.material().initial_shear_modulus, case.rubber.thermal.density
+    return case.solver.edge_radius_mm / float(np.sqrt(G / density))
+
+
+def damping_lines(case: Case) -> list[str]:
+    """Line for the log of a run whose rubber has branches: whether they damp the snaps."""
+    if case.rubber.viscoelastic is None:
+        return []
+    found = (
+        f"its loss modulus is {rubber_loss(case):.3g} slow shear moduli "
+        f"at the {1e3 * snap_time(case):.3g} ms of the edge's snaps"
+    )
+    if case.solver.snap_damping != "auto":
+        return [f'the rubber: {found}; snap_damping = "{case.solver.snap_damping}"']
+    if rubber_loss(case) >= ENOUGH_LOSS:
+        return [f"no artificial damping: the rubber damps the snaps itself, {found}"]
+    return [
+        f"artificial damping: the rubber does not damp the snaps, {found} (enough: {ENOUGH_LOSS:g})"
+    ]

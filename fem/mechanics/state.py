@@ -26,6 +26,9 @@ class MechanicalState:
         Tangential forces of self-contact by boundary node [N/mm]; None where there is none.
     rubber : (k, ne, 4) float array or None
         State variables of the rubber at the Gauss points; None of rubber without a memory.
+    lost : (ne,) float array or None
+        Energy per reference volume that its viscosity has dissipated, mean of each element
+        [mJ/mm^3]; None without viscosity.
     """
 
     u: FloatArray
@@ -34,3 +37,4 @@ class MechanicalState:
     status: ContactStatus
     self_shear: FloatArray | None = None
     rubber: FloatArray | None = None
+    lost: FloatArray | None = None

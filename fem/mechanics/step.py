@@ -311,9 +311,13 @@ class StepProblem:
         self, x: Iterate, rubber: StepEnd, self_shear: FloatArray | None = None
     ) -> MechanicalState:
         """State at the end of the step, for a converged iterate."""
+        lost = None
+        if rubber.viscous is not None:
+            lost = self.system.elements.mean(rubber.viscous)
+            lost = lost if self.state.lost is None else self.state.lost + lost
         return MechanicalState(
             u=x.u, velocity=self.velocity(x.u), p=x.p, status=x.status, self_shear=self_shear,
-            rubber=rubber.state,
+            rubber=rubber.state, lost=lost,
         )  # fmt: skip
 
     def _evaluate(self, x: Iterate, first: bool) -> StepEvaluation:

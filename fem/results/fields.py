@@ -26,6 +26,7 @@ def write_fields(path: str | Path, geometry: BlockGeometry, snapshots: Sequence[
         f"{name}_{number}": getattr(snapshot, name)
         for number, snapshot in enumerate(snapshots)
         for name in _PARTS
+        if getattr(snapshot, name) is not None
     }
     np.savez_compressed(path, points=geometry.points, cells=geometry.cells, **arrays)
 
@@ -44,16 +45,20 @@ def read_fields(path: str | Path) -> tuple[BlockGeometry, list[Snapshot]]:
         with np.load(path, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
         geometry = BlockGeometry(points=arrays.pop("points"), cells=arrays.pop("cells"))
-        snapshots = [
-            Snapshot(**{name: _plain(arrays[f"{name}_{number}"]) for name in _PARTS})
-            for number in range(len(arrays) // len(_PARTS))
-        ]
+        count = sum(name.startswith("time_s_") for name in arrays)
+        snapshots = [Snapshot(**_parts(arrays, number)) for number in range(count)]
         for snapshot in snapshots:
             snapshot.check(geometry)
     # A damaged archive makes the reading libraries raise almost anything.
     except Exception as error:
         raise ValueError(f"{path} is damaged ({error or type(error).__name__})") from None
     return geometry, snapshots
+
+
+def _parts(arrays: dict[str, NDArray[Any]], number: int) -> dict[str, Any]:
+    """What the archive has of a snapshot."""
+    names = {name: f"{name}_{number}" for name in _PARTS}
+    return {name: _plain(arrays[key]) for name, key in names.items() if key in arrays}
 
 
 def _plain(array: NDArray[Any]) -> Any:

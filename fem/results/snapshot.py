@@ -43,6 +43,11 @@ class Snapshot:
         Largest principal stretch in the plane, mean of each element [-].
     pressure : (ne,) float array
         Volumetric stress dU/dJ of each element, positive in tension [N/mm^2].
+    softening : (ne,) float array or None
+        Factor of the elastic stress of softening rubber, mean of each element [-].
+    viscous_dissipation : (ne,) float array or None
+        Energy that the branches of viscoelastic rubber dissipated since the start, mean of each
+        element per reference volume [mJ/mm^3].
     road_points : (nr, 2) float array
         Road nodes in the platen's frame [mm].
     road_cells : (ner, 4) int array
@@ -61,6 +66,8 @@ class Snapshot:
     road_points: FloatArray
     road_cells: IntArray
     road_temperature: FloatArray
+    softening: FloatArray | None = None
+    viscous_dissipation: FloatArray | None = None
 
     def check(self, geometry: BlockGeometry) -> None:
         """Raise ValueError unless every field has the length of the mesh it belongs to."""
@@ -72,10 +79,12 @@ class Snapshot:
             "stretch": (elements,),
             "pressure": (elements,),
             "road_temperature": (len(self.road_points),),
+            "softening": (elements,),
+            "viscous_dissipation": (elements,),
         }
         for name, shape in expected.items():
-            found = getattr(self, name).shape
-            if found != shape:
+            found = getattr(getattr(self, name), "shape", None)
+            if found not in (shape, None):
                 raise ValueError(f"snapshot field {name} has shape {found}, expected {shape}")
 
     def __eq__(self, other: object) -> bool:

@@ -29,6 +29,8 @@ STRESS_COMPONENTS = (
 )
 STRETCH = "largest_principal_stretch"
 PRESSURE = "volumetric_stress_N_per_mm2"
+SOFTENING = "softening"
+VISCOUS_DISSIPATION = "viscous_dissipation_mJ_per_mm3"
 TIME = "time_s"
 DISTANCE = "sliding_distance_mm"
 
@@ -67,6 +69,8 @@ def _block_mesh(geometry: BlockGeometry, snapshot: Snapshot) -> meshio.Mesh:
     tensor = np.zeros((len(stress), 6))
     tensor[:, _VTK_POSITION] = stress
     components = {name: stress[:, i] for i, name in enumerate(STRESS_COMPONENTS)}
+    memory = {SOFTENING: snapshot.softening, VISCOUS_DISSIPATION: snapshot.viscous_dissipation}
+    remembered = {name: values for name, values in memory.items() if values is not None}
     return _mesh(
         geometry.points,
         geometry.cells,
@@ -74,7 +78,8 @@ def _block_mesh(geometry: BlockGeometry, snapshot: Snapshot) -> meshio.Mesh:
             DISPLACEMENT: _three_dimensional(snapshot.displacement),
             TEMPERATURE: snapshot.temperature,
         },
-        {STRESS: tensor, **components, STRETCH: snapshot.stretch, PRESSURE: snapshot.pressure},
+        {STRESS: tensor, **components, STRETCH: snapshot.stretch, PRESSURE: snapshot.pressure}
+        | remembered,
         {TIME: snapshot.time_s, DISTANCE: snapshot.sliding_distance_mm},
     )
 

@@ -66,6 +66,16 @@ class EnergyAudit:
         return share(self.viscous - self.snaps, self.work_in)
 
     @property
+    def rubber_share(self) -> float:
+        """What the rubber's own viscosity dissipated, relative to the work in [-]."""
+        return share(self.rubber, self.work_in)
+
+    @property
+    def damage_share(self) -> float:
+        """What the rubber's damage consumed, relative to the work in [-]."""
+        return share(self.damage, self.work_in)
+
+    @property
     def snap_share(self) -> float:
         """What snaps released, relative to the work in [-]."""
         return share(self.snaps, self.work_in)

@@ -107,7 +107,8 @@ class Recorder:
         """Append the fields of an accepted state."""
         elements, mechanics = self.model.mechanics.elements, state.mechanics
         kinematics = elements.kinematics(mechanics.u)
-        past = Past(material=self.model.mechanics.material(mechanics, state.heat.T))
+        rubber = self.model.mechanics.material(mechanics, state.heat.T)
+        softening = rubber.end(kinematics).softening
         road = self.model.heat.road_field(state.heat, state.position)
         self.snapshots.append(
             Snapshot(
@@ -115,12 +116,14 @@ class Recorder:
                 sliding_distance_mm=distance,
                 displacement=mechanics.u,
                 temperature=state.heat.T,
-                cauchy_stress=elements.cauchy(kinematics, past),
+                cauchy_stress=elements.cauchy(kinematics, Past(material=rubber)),
                 stretch=elements.largest_stretch(kinematics),
                 pressure=mechanics.p,
                 road_points=road.points,
                 road_cells=road.cells,
                 road_temperature=road.temperature,
+                softening=None if softening is None else elements.mean(softening),
+                viscous_dissipation=mechanics.lost,
             )
         )
 

@@ -7,6 +7,7 @@ from tests.wrong_inputs.case_ranges import RANGES
 from tests.wrong_inputs.cases import LOADING, SET_SYNTAX, WRONG_CASES
 from tests.wrong_inputs.commands import EXPORTS, RIGS, STUDIES
 from tests.wrong_inputs.measured import MEASURED
+from tests.wrong_inputs.memory import MEMORY
 from tests.wrong_inputs.rows import WrongInput, of_case
 from tests.wrong_inputs.texts import READING
 from tests.wrong_inputs.units import UNITS
@@ -15,6 +16,6 @@ from tests.wrong_inputs.unusual import UNUSUAL_INPUTS
 __all__ = ["LOADING", "UNUSUAL_INPUTS", "WRONG_INPUTS", "WrongInput"]
 
 WRONG_INPUTS = [
-    *map(of_case, [*WRONG_CASES, *RANGES, *SET_SYNTAX]),
+    *map(of_case, [*WRONG_CASES, *RANGES, *MEMORY, *SET_SYNTAX]),
     *(UNITS + MEASURED + READING + RIGS + STUDIES + EXPORTS),
 ]

@@ -57,6 +57,12 @@ EXPORTS = [
         expected=("heat.ambient_C", "looks like kelvin"),
     ),
     WrongInput(
+        kind="export: rubber with a memory",
+        words=("export", "case.toml", "-o", "out.inp"),
+        files={"case.toml": "[rubber]\nmullins = {r = 2.0, m_N_per_mm2 = 0.1}\n" + LOADING},
+        expected=("rubber.mullins", "rubber that remembers", "an elastic rubber"),
+    ),
+    WrongInput(
         kind="check: device",
         words=("check", "/dev/zero"),
         expected=("/dev/zero", "a device or a pipe"),

@@ -28,6 +28,12 @@ MOST_OGDEN_TERMS = 4
 def hyperelastic_card(case: Case) -> list[str]:
     """Lines of the *HYPERELASTIC card of a case, constants in N/mm^2 and mm^2/N."""
     model, D1 = case.rubber.model(), 2.0 / case.rubber.bulk_modulus
+    for key in ("viscoelastic", "mullins"):
+        if getattr(case.rubber, key) is not None:
+            raise CaseError(
+                file=case.source, key=f"rubber.{key}", found="rubber that remembers",
+                expected="an elastic rubber: the deck has no such material",
+            )  # fmt: skip
     if isinstance(model, NeoHooke):
         return ["*HYPERELASTIC, NEO HOOKE", numbers(0.5 * model.G, D1)]
     if isinstance(model, MooneyRivlin):

@@ -15,7 +15,7 @@ SMALL = {"cells_x": 24, "cells_y": 8, "smallest_x_mm": 0.4, "smallest_y_mm": 0.3
 TIMES = ("wall_s", "solver_s")
 
 
-def case_of(block, distance, **solver):
+def case_of(block, distance, *, rubber=None, **solver):
     loading = {
         "mean_pressure_N_per_mm2": 0.25,
         "velocity_mm_per_s": 300.0,
@@ -26,6 +26,7 @@ def case_of(block, distance, **solver):
         {
             "loading": loading,
             "block": block,
+            "rubber": rubber or {},
             "solver": solver,
             "output": output,
         }
@@ -42,6 +43,14 @@ CASES = {
         newton_iterations_max=6,
         viscous_distance_mm=1.0,
         edge_viscous_distance_mm=0.0,
+    ),
+    "with a memory": case_of(
+        {"mesh": SMALL},
+        1.0,
+        rubber={
+            "viscoelastic": {"g": [1.5, 0.4], "tau_s": [1e-4, 1e-2], "C1": 7.0, "C2_K": 120.0},
+            "mullins": {"r": 2.0, "m_N_per_mm2": 0.1},
+        },
     ),
 }
 
