@@ -31,8 +31,9 @@ from fem.mesh.block import BlockMesh
 FloatArray = NDArray[np.float64]
 
 #: Loss modulus at the rate of the snaps, over the slow shear modulus, from which on the rubber
-#: needs no help: with 0.27 the introductory example takes its snaps in steps of some micrometres,
-#: with 0.1 it takes four times as many and comes near the shortest one.
+#: needs no help. 8 mm of the introductory example on the coarse mesh without help: with 0.27 and
+#: more they are gone through, the energy is balanced to 0.02 %; with 0.1 in ten times the steps and
+#: to 1.7 %; of five spectra with less three do not get there.
 ENOUGH_LOSS = 0.2
 
 
