@@ -30,6 +30,7 @@ from fem.files import (
     say_of,
     warn,
 )
+from fem.files.program_version import version_of
 from fem.results.output_folder import check_output_file, chosen_output, output_folder
 from validation.commands import add_arguments as add_paper_commands
 from validation.drawing import draw_missing
@@ -86,7 +87,7 @@ def _parser(command: str) -> argparse.ArgumentParser:
         prog="treadfem",
         description="Sliding rubber tread block with friction and heat.",
     )
-    parser.add_argument("--version", action="version", version=f"treadfem {_version()}")
+    parser.add_argument("--version", action="version", version=f"treadfem {version_of()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_run(commands)
     _add_check(commands)
@@ -97,15 +98,6 @@ def _parser(command: str) -> argparse.ArgumentParser:
     add_paper_commands(commands)
     _add_export(commands)
     return parser
-
-
-def _version() -> str:
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version("treadfem")
-    except PackageNotFoundError:
-        return "(not installed)"
 
 
 def _add_case_arguments(parser: argparse.ArgumentParser) -> None:

@@ -18,9 +18,9 @@ from calibration.data.errors import DataError
 from calibration.data.row_account import LeftOut, left_out
 from calibration.data.tables import Table, read_table
 from calibration.fitting.core import FitResult, Problem, fit
-from calibration.fitting.provenance import version
 from calibration.shifting.frequency_sweeps import is_sweep_table
 from calibration.shifting.master_curve import MasterCurve, shift_sweeps
+from fem.files.program_version import version_of
 from materials.arrays import FloatArray
 from materials.wlf import WLF
 
@@ -128,7 +128,7 @@ def fit_wlf(
         **data.origin,
         "T_ref_C": reference,
         **_about_rows(data),
-        "version": version(),
+        "version": version_of(),
     }
     section: dict[str, Any] = {
         "wlf": True,

@@ -192,7 +192,7 @@ def _add_report(commands: Any) -> None:
 
 
 def _report(arguments: argparse.Namespace) -> int:
-    from validation.report.write import write_report
+    from validation.report.page import write_report
 
     figures = Path(arguments.figures)
     path = chosen_output(arguments.output, Path("results/report.html"))

@@ -23,8 +23,8 @@ import pandas as pd
 from calibration.conductance.heating_rig import Heater, HeatingRig, RigModel
 from calibration.data.tables import Table, read_table
 from calibration.fitting.core import FitResult, Loss, Problem, fit
-from calibration.fitting.provenance import version
 from contact.conductance import ContactSurface, GapConductance, mikic_constant
+from fem.files.program_version import version_of
 from materials.arrays import FloatArray
 from materials.plausible import TEMPERATURE
 
@@ -278,7 +278,7 @@ def _completed(result: FitResult, rig: HeatingRig, record: HeatingRecord) -> Fit
         "heater": record.heater,
         "pressure_N_per_mm2": rig.pressure_N_per_mm2,
         "reading_change_for_5_percent_K": float(0.05 * h * np.abs(slope).max()),
-        "version": version(),
+        "version": version_of(),
     }
     heat = {
         "conductance_W_per_m2K": h,

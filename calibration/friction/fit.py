@@ -17,10 +17,10 @@ import pandas as pd
 from calibration.data.errors import DataError
 from calibration.fitting.core import FitResult, Loss, Problem, fit, refuse_no_fit
 from calibration.fitting.progress import stage
-from calibration.fitting.provenance import version
 from calibration.friction.curves import HUEMER_SCALE, LAWS, FrictionCurve
 from calibration.friction.data import FrictionData, read_friction
 from contact.friction import FrictionLaw, shifted
+from fem.files.program_version import version_of
 from materials.arrays import FloatArray
 from materials.wlf import WLF
 
@@ -224,7 +224,7 @@ def _completed(
         "T_ref_C": section.get("T_ref_C", "not known: the data hold no temperatures"),
         "rows_used": len(data.table),
         "normalisation": _normalisation(result) if law == "huemer" else "none needed",
-        "version": version(),
+        "version": version_of(),
     }
     return replace(
         result,

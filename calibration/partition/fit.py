@@ -31,7 +31,6 @@ import numpy as np
 import pandas as pd
 
 from calibration.fitting.core import FitResult, Problem, fit
-from calibration.fitting.provenance import version
 from calibration.partition.data import Condition, PartitionData, ProfileUse, read_partition_data
 from calibration.partition.simulation_store import SimulationStore
 from calibration.partition.slides import (
@@ -47,7 +46,7 @@ from calibration.partition.slides import (
 )
 from contact.partition import HeatPartition
 from fem.case import Case, CaseError
-from fem.files.program_version import program_version
+from fem.files.program_version import program_version, version_of
 from materials.arrays import FloatArray
 
 NAMES = ("prefactor", "exponent")
@@ -319,7 +318,7 @@ def _completed(
         "velocities_mm_per_s": sorted({c.velocity for c in data.conditions}),
         "standard_errors_from": "sigma of the data" if data.has_sigma else "scatter about the fit",
         "last_correction_K": correction,
-        "version": version(),
+        "version": version_of(),
         "simulated_by": program_version(),
     }
     p = [slide.contact_pressure for slide in slides]

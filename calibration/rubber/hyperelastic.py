@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 from calibration.data.errors import DataError
 from calibration.fitting.core import FitResult, Loss, Problem, fit, refuse_no_fit
 from calibration.fitting.progress import stage
-from calibration.fitting.provenance import version
 from calibration.fitting.stability import Stability, check_stability
 from calibration.rubber.cycles import Branch
 from calibration.rubber.stress_checks import STRESS, check_modulus
 from calibration.rubber.stress_data import Cycle, StressData, select_data
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
 from calibration.rubber.stress_zero import Zero
+from fem.files.program_version import version_of
 from materials.arrays import FloatArray
 
 Weighting = Literal["equal", "modes", "relative"]
@@ -250,7 +250,7 @@ def _completed(
         **data.table.origin,
         **data.selection,
         "weights": weights,
-        "version": version(),
+        "version": version_of(),
         "stability": stability,
     }
     return replace(

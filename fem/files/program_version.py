@@ -31,8 +31,7 @@ def program_version() -> str:
         for path in sorted((ROOT / package).rglob("*.py"))
         if not path.is_relative_to(_NOT_COMPUTING)
     )
-    released = version_of("treadfem") or "0"
-    return f"{released}+{fingerprint(sources, _NUMERICAL)[:8]}"
+    return f"{version_of('treadfem', '0')}+{fingerprint(sources, _NUMERICAL)[:8]}"
 
 
 def fingerprint(files: Iterable[Path], packages: Iterable[str] = ()) -> str:
@@ -52,12 +51,12 @@ def fingerprint(files: Iterable[Path], packages: Iterable[str] = ()) -> str:
     return digest.hexdigest()
 
 
-def version_of(package: str) -> str | None:
-    """Version of an installed package, None if there is none."""
+def version_of(package: str = "treadfem", otherwise: str = "not installed") -> str:
+    """Version of an installed package, or what is said otherwise."""
     try:
         return version(package)
     except PackageNotFoundError:
-        return None
+        return otherwise
 
 
 def _meaning(source: bytes) -> str:

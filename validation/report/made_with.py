@@ -1,14 +1,16 @@
-"""Which program made the report: versions, commit, date."""
+"""Which program made the report (versions, commit, date), and which ones its runs."""
 
 from __future__ import annotations
 
 import platform
 import subprocess
+from collections import Counter
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
 from fem.files.program_version import ROOT, program_version, version_of
+from fem.results import SUMMARY_JSON, read_summary
 
 #: Packages whose version decides numbers or pictures.
 PACKAGES = (
@@ -54,9 +56,20 @@ def made_with() -> MadeWith:
         commit=describe_commit(ROOT),
         versions={
             "Python": platform.python_version(),
-            **{p: version_of(p) or "not installed" for p in PACKAGES},
+            **{p: version_of(p) for p in PACKAGES},
         },
     )
+
+
+def programs_of_runs(directory: Path) -> list[tuple[str, int]]:
+    """Programs and how many runs in ``directory/runs`` they computed, most runs first."""
+    counts: Counter[str] = Counter()
+    for path in sorted((directory / "runs").glob(f"*/{SUMMARY_JSON}")):
+        try:
+            counts[str(read_summary(path.parent).get("program_version", "unknown"))] += 1
+        except ValueError:
+            counts["unreadable"] += 1
+    return counts.most_common()
 
 
 def describe_commit(root: Path) -> str:

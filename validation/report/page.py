@@ -8,12 +8,12 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from fem.files import write_text
 from validation.report import captions
 from validation.report.cells import is_number
 from validation.report.introductory_part import IntroductoryRun, find_introductory
-from validation.report.made_with import MadeWith
+from validation.report.made_with import MadeWith, made_with, programs_of_runs
 from validation.report.parts import Part, find_part
-from validation.report.runs_found import programs_of_runs
 from validation.sensitivity.parameters import PARAMETERS, Parameter, first_key
 from validation.studies import STUDIES
 
@@ -107,3 +107,23 @@ def tone(word: str) -> str:
     """Colour of a verdict or a status: "good", "bad", or "open" for what is neither."""
     known = [name for name, words in TONES.items() if word.strip().lower() in words]
     return known[0] if known else "open"
+
+
+def write_report(directory: Path, path: Path) -> Path:
+    """Write everything that lies in a folder of figures into one HTML file.
+
+    Parameters
+    ----------
+    directory : Path
+        Folder of figures, tables, claims and sensitivity; the introductory run is looked for
+        inside it and beside it. What is missing is named on the page with what makes it.
+    path : Path
+        The file; it is replaced only when the new one is complete.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
+    write_text(path, render(find_page(Path(directory), made_with())))
+    return Path(path)

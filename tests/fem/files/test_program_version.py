@@ -90,7 +90,7 @@ def test_new_and_renamed_files_count_but_those_of_the_sweeps_do_not(root):
 
 def test_versions_of_the_numerical_packages_count(root, monkeypatch):
     before = version()
-    monkeypatch.setattr(module, "version_of", lambda package: f"{package} 99")
+    monkeypatch.setattr(module, "version_of", lambda package, *_: f"{package} 99")
     assert version().split("+")[1] != before.split("+")[1]
 
 

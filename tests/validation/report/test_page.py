@@ -12,11 +12,9 @@ from tests.made_up_result import made_up_result
 from validation.paper.figures import FIGURES
 from validation.paper.introductory import introductory_case
 from validation.paper.tables import TABLES
-from validation.report import captions, page, write
-from validation.report.made_with import MadeWith
-from validation.report.page import find_page, render, tone
-from validation.report.runs_found import programs_of_runs
-from validation.report.write import write_report
+from validation.report import captions, page
+from validation.report.made_with import MadeWith, programs_of_runs
+from validation.report.page import find_page, render, tone, write_report
 from validation.sensitivity.parameters import PARAMETERS
 
 PNG = base64.b64decode(
@@ -85,7 +83,7 @@ def folder(tmp_path, monkeypatch):
     robustness = tmp_path / "robustness.csv"
     robustness.write_text("friction.mu,status\n0.3,ok\n1.2,not converged\n0.6,ok\n")
     monkeypatch.setattr(page, "ROBUSTNESS", robustness)
-    monkeypatch.setattr(write, "made_with", lambda: MADE_WITH)
+    monkeypatch.setattr(page, "made_with", lambda: MADE_WITH)
     return figures
 
 
@@ -249,7 +247,7 @@ def test_the_note_that_data_is_synthetic_stands_above_its_table(folder):
 def test_the_file_is_written_whole_into_a_new_folder(folder, monkeypatch):
     path = write_report(folder, folder.parent / "new" / "report.html")
     assert path.read_text(encoding="utf-8") == html_of(folder)
-    monkeypatch.setattr(write, "render", lambda page: 1 / 0)
+    monkeypatch.setattr(page, "render", lambda page: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report(folder, path)
     assert path.read_text(encoding="utf-8") == html_of(folder)
