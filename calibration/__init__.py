@@ -3,6 +3,8 @@
 from calibration.data.errors import DataError
 from calibration.fitting.core import FitResult
 from calibration.friction.fit import compare_laws, fit_friction
+from calibration.memory.fit import fit_viscoelastic
+from calibration.memory.mullins import fit_mullins
 from calibration.rubber.hyperelastic import compare_models, fit_hyperelastic
 from calibration.shifting.master_curve import shift_sweeps
 from calibration.wlf import fit_wlf
@@ -14,6 +16,8 @@ __all__ = [
     "compare_models",
     "fit_friction",
     "fit_hyperelastic",
+    "fit_mullins",
+    "fit_viscoelastic",
     "fit_wlf",
     "shift_sweeps",
 ]

@@ -17,7 +17,9 @@ from calibration.outcomes import (
     calibrate_conductance,
     calibrate_friction,
     calibrate_hyperelastic,
+    calibrate_mullins,
     calibrate_partition,
+    calibrate_viscoelastic,
     calibrate_wlf,
 )
 from calibration.partition.fit import MOST_SIMULATIONS
@@ -122,6 +124,85 @@ def _add_hyperelastic(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(calibrate=calibrate)
 
 
+def _add_viscoelastic(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--model", choices=STRESS_MODELS, help="elastic law of histories (yeoh)")
+    parser.add_argument(
+        "--branches", type=_count, metavar="N", help="number (default: as few as the data support)"
+    )
+    _add_histories(parser)
+    parser.add_argument("--weights", choices=("equal", "tests"), help="rows or tests alike")
+    parser.add_argument("--C1", type=_positive, help="WLF constant for histories with T_C")
+    parser.add_argument("--C2", type=_positive, metavar="K", help="the other one")
+    parser.add_argument(
+        "--T-ref", type=_celsius, metavar="C", dest="T_ref_C",
+        help="temperature of the relaxation times (default: 20, or the sweep in the middle)",
+    )  # fmt: skip
+    _add_shifting(parser, vertical=None, expansion=None)
+    _add_robust(parser, "N/mm^2, of sweeps relative")
+
+    def calibrate(arguments: argparse.Namespace) -> Outcome:
+        if (arguments.C1 is None) != (arguments.C2 is None):
+            raise ValueError("one of --C1 and --C2 is missing; expected both or neither")
+        shift = None if arguments.C1 is None else WLF(d1=arguments.C1, d2_K=arguments.C2)
+        return calibrate_viscoelastic(
+            arguments.data,
+            intervals=arguments.intervals,
+            loss=arguments.loss,
+            **_given(
+                model=arguments.model,
+                branches=arguments.branches,
+                weights=arguments.weights,
+                shift=shift,
+                T_ref_C=arguments.T_ref_C,
+                vertical=arguments.vertical,
+                expansion_per_K=arguments.expansion,
+                T_tolerance_K=arguments.T_tolerance_K,
+                noise=arguments.noise,
+                **_histories(arguments),
+            ),
+        )
+
+    parser.set_defaults(calibrate=calibrate)
+
+
+def _add_mullins(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--model", choices=STRESS_MODELS, default="yeoh")
+    _add_histories(parser)
+    _add_robust(parser, "N/mm^2")
+
+    def calibrate(arguments: argparse.Namespace) -> Outcome:
+        return calibrate_mullins(
+            arguments.data,
+            model=arguments.model,
+            intervals=arguments.intervals,
+            loss=arguments.loss,
+            **_given(noise_N_per_mm2=arguments.noise, **_histories(arguments)),
+        )
+
+    parser.set_defaults(calibrate=calibrate)
+
+
+def _add_histories(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--mode", choices=MODES, help="of a table without that column (uniaxial)")
+    parser.add_argument(
+        "--from-cycle", type=_count, metavar="N",
+        help="rows of earlier cycles load the rubber and are not compared",
+    )  # fmt: skip
+    parser.add_argument(
+        "--fix", metavar="NAME=VALUE", type=_fixed, action="append", help="hold a parameter"
+    )
+
+
+def _histories(arguments: argparse.Namespace) -> dict[str, Any]:
+    fixed = None if arguments.fix is None else dict(arguments.fix)
+    return {"mode": arguments.mode, "from_cycle": arguments.from_cycle, "fixed": fixed}
+
+
+def _given(**options: Any) -> dict[str, Any]:
+    """Options that were given; the fits know the defaults of the others."""
+    return {name: value for name, value in options.items() if value is not None}
+
+
 def _add_friction(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--law", choices=LAWS, default="huemer")
     parser.add_argument(
@@ -174,18 +255,7 @@ def _add_wlf(parser: argparse.ArgumentParser) -> None:
         "--other-sign", action="store_true",
         help="the table holds 1/a_T, which rises with temperature",
     )  # fmt: skip
-    parser.add_argument(
-        "--vertical", choices=get_args(Vertical), default="auto",
-        help="vertical shift T rho/(T_0 rho_0) of the moduli, none, or the better of the two",
-    )  # fmt: skip
-    parser.add_argument(
-        "--expansion", type=_not_negative, default=0.0, metavar="PER_K",
-        help="thermal expansion of the volume, for rho/rho_0 (default: rho stays)",
-    )  # fmt: skip
-    parser.add_argument(
-        "--T-tolerance", type=_not_negative, metavar="K", dest="T_tolerance_K",
-        help="rows within that of each other are one sweep (default: 1 K where needed)",
-    )  # fmt: skip
+    _add_shifting(parser, vertical="auto", expansion=0.0)
 
     def calibrate(arguments: argparse.Namespace) -> Outcome:
         return calibrate_wlf(
@@ -199,6 +269,23 @@ def _add_wlf(parser: argparse.ArgumentParser) -> None:
         )
 
     parser.set_defaults(calibrate=calibrate)
+
+
+def _add_shifting(
+    parser: argparse.ArgumentParser, *, vertical: str | None, expansion: float | None
+) -> None:
+    parser.add_argument(
+        "--vertical", choices=get_args(Vertical), default=vertical,
+        help="vertical shift T rho/(T_0 rho_0) of the moduli, none, or the better of the two",
+    )  # fmt: skip
+    parser.add_argument(
+        "--expansion", type=_not_negative, default=expansion, metavar="PER_K",
+        help="thermal expansion of the volume, for rho/rho_0 (default: rho stays)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--T-tolerance", type=_not_negative, metavar="K", dest="T_tolerance_K",
+        help="rows within that of each other are one sweep (default: 1 K where needed)",
+    )  # fmt: skip
 
 
 def _add_conductance(parser: argparse.ArgumentParser) -> None:
@@ -260,6 +347,11 @@ def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
         "--fix", metavar="NAME=VALUE", type=_fixed, action="append", help="hold a parameter"
     )
     parser.add_argument("--starts", type=_count, default=20, help="starting points")
+    _add_robust(parser, unit)
+    parser.add_argument("--no-compare", action="store_true", help="leave out the other models")
+
+
+def _add_robust(parser: argparse.ArgumentParser, unit: str) -> None:
     parser.add_argument(
         "--loss", choices=("linear", "soft_l1", "huber", "cauchy"), default="linear",
         help="a robust loss bounds the pull of outliers",
@@ -269,7 +361,6 @@ def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
         "--intervals", choices=("student", "profile", "bootstrap"), default="student",
         help="95 %% intervals from the covariance, the profile or resampling",
     )  # fmt: skip
-    parser.add_argument("--no-compare", action="store_true", help="leave out the other models")
 
 
 def _common(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -342,6 +433,11 @@ def _fixed(text: str) -> tuple[str, float]:
 
 KINDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
     "hyperelastic": (_add_hyperelastic, "a hyperelastic model to stress-stretch tests"),
+    "viscoelastic": (
+        _add_viscoelastic,
+        "relaxation times to stress histories or frequency sweeps",
+    ),
+    "mullins": (_add_mullins, "softening to first and later cycles"),
     "friction": (_add_friction, "a friction law to friction coefficients"),
     "partition": (_add_partition, "the heat partition to surface temperatures of sliding blocks"),
     "conductance": (_add_conductance, "the gap conductance to a static heating test"),

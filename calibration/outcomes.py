@@ -20,14 +20,20 @@ from calibration.fitting.core import FitResult
 from calibration.fitting.parameter_file import parameter_text
 from calibration.friction.data import read_friction
 from calibration.friction.fit import compare_laws, fit_friction
+from calibration.memory.fit import fit_viscoelastic, read_memory
+from calibration.memory.histories import Histories, read_histories
+from calibration.memory.mullins import fit_mullins
+from calibration.memory.sweeps import Moduli
 from calibration.partition.fit import PartitionFit, fit_partition
 from calibration.partition.simulation_store import SIMULATIONS_FOLDER, SimulationStore
 from calibration.plots import (
     plot_comparison,
     plot_conductance,
     plot_friction,
+    plot_histories,
     plot_hyperelastic,
     plot_master_curve,
+    plot_moduli,
     plot_partition,
     plot_wlf,
     png,
@@ -44,7 +50,8 @@ PARAMETERS_FILE = "parameters.toml"
 #: What the summary repeats of a fit's metadata.
 _SAID = (
     "cycle", "branch", "window", "modes", "zero", "normalisation", "T_ref_C", "vertical_shift",
-    "overlap_error_decades",
+    "overlap_error_decades", "tests", "branches", "tau_window_s", "rmse_of_largest_stress",
+    "relative_rmse",
 )  # fmt: skip
 
 
@@ -102,6 +109,76 @@ def calibrate_hyperelastic(
         files["models.png"] = png(plot_comparison(found, "rmse_N_per_mm2", "N/mm²"))
         text += _compared("all models", found.drop(columns=["n_data", "values"]))
     return _outcome(result, text, files)
+
+
+def calibrate_viscoelastic(
+    path: str | Path, *, intervals: str = "student", **options: Any
+) -> Outcome:
+    """Fit branches to the CSV file `path` (options of `fit_viscoelastic`)."""
+    fitting = {key: options.pop(key) for key in ("branches", "loss", "noise") if key in options}
+    data = read_memory(path, **options)
+    if isinstance(data, Moduli):
+        result = fit_viscoelastic(data, **fitting)
+        points, picture = _moduli_points(result, data), plot_moduli(result, data)
+    else:
+        result = fit_viscoelastic(data, **fitting, **options)
+        points, picture = _history_points(result, data), plot_histories(result, data)
+    result = _with_intervals(result, intervals)
+    files = _files(result, points) | {"fit.png": png(picture)}
+    about = result.metadata
+    tried = pd.DataFrame(
+        {
+            "branches": about["branches_tried"],
+            "rmse_N_per_mm2": about["rmse_by_branches"],
+            "criterion": about["criterion_by_branches"],
+        }
+    )
+    files["branches.csv"] = _csv(tried)
+    return _outcome(result, f"{_heading(result, path)}\n{_shown(tried)}", files)
+
+
+def calibrate_mullins(
+    path: str | Path, *, model: str = "yeoh", intervals: str = "student", **options: Any
+) -> Outcome:
+    """Fit softening to the CSV file `path` (options of `fit_mullins`)."""
+    reading = {key: options.pop(key) for key in ("mode", "from_cycle") if key in options}
+    data = read_histories(path, timed=False, **reading)
+    result = _with_intervals(fit_mullins(data, model, **options), intervals)
+    files = _files(result, _history_points(result, data))
+    files["fit.png"] = png(plot_histories(result, data))
+    return _outcome(result, _heading(result, path), files)
+
+
+def _history_points(result: FitResult, data: Histories) -> pd.DataFrame:
+    points = data.points
+    time = {} if data.time is None else {"time_s": data.time[data.compared]}
+    return pd.DataFrame(
+        {
+            "row": points.table.rows,
+            "test": data.names,
+            **time,
+            "stretch": points.stretch,
+            "nominal_stress_N_per_mm2": points.stress,
+            "fit_N_per_mm2": result.predicted,
+            "residual_N_per_mm2": result.predicted - result.observed,
+        }
+    )
+
+
+def _moduli_points(result: FitResult, data: Moduli) -> pd.DataFrame:
+    kinds = [name for name in ("storage", "loss") if getattr(data, name) is not None]
+    times = len(kinds)
+    return pd.DataFrame(
+        {
+            "row": np.tile(data.rows, times),
+            "kind": np.repeat(kinds, data.omega.size),
+            "T_C": np.tile(data.dT + data.T_ref_C, times),
+            "frequency_Hz": np.tile(data.measured / (2.0 * np.pi), times),
+            "modulus_at_T_ref_N_per_mm2": result.observed,
+            "fit_N_per_mm2": result.predicted,
+            "residual_N_per_mm2": result.predicted - result.observed,
+        }
+    )
 
 
 def calibrate_friction(

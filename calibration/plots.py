@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from calibration.conductance.fit import HeatingRecord
 from calibration.fitting.core import FitResult
 from calibration.friction.data import FrictionData
+from calibration.memory.histories import Histories
+from calibration.memory.sweeps import Moduli
 from calibration.rubber.stress_data import StressData
 from calibration.shifting.master_curve import MasterCurve
 from materials.arrays import FloatArray
@@ -60,6 +62,54 @@ def plot_hyperelastic(result: FitResult, data: StressData) -> Figure:
     above.legend(fontsize=8)
     below.set_xlabel("stretch [-]")
     below.set_ylabel("fit - data [N/mm²]")
+    return figure
+
+
+def plot_histories(result: FitResult, data: Histories) -> Figure:
+    """Stress over stretch of each test with the fit, and the residuals over the rows below."""
+    figure = _figure(6.0)
+    above, below = figure.subplots(2, 1, height_ratios=(3, 1))
+    points, names = data.points, data.names
+    for i, test in enumerate(data.tests):
+        here = np.flatnonzero(names == test.name)
+        few, colour = here[_shown(here.size)], COLOURS[i % len(COLOURS)]
+        dots = {"marker": "o", "color": colour, "linestyle": "none", "markersize": 3, "alpha": 0.4}
+        above.plot(points.stretch[few], points.stress[few], **dots)
+        above.plot(points.stretch[here], result.predicted[here], color=colour, label=test.name)
+        residual = result.predicted[few] - result.observed[few]
+        below.plot(points.table.rows[few], residual, color=colour, linewidth=0.8)
+    name = f"{result.metadata['kind']}, {result.metadata['model']}"
+    above.set_title(f"{name}: RMSE {result.rmse:.3g} N/mm², R² {result.r2:.4f}", fontsize=10)
+    above.set_xlabel("stretch [-]")
+    above.set_ylabel("nominal stress [N/mm²]")
+    above.legend(fontsize=8)
+    below.axhline(0.0, color="0.5", linewidth=0.8)
+    below.set_xlabel("row")
+    below.set_ylabel("fit - data [N/mm²]")
+    return figure
+
+
+def plot_moduli(result: FitResult, data: Moduli) -> Figure:
+    """Storage and loss modulus over reduced frequency with the fit, branches as ticks."""
+    figure, (above, below) = _panels()
+    size, frequency = data.omega.size, data.omega / (2.0 * np.pi)
+    kinds = [name for name in ("storage", "loss") if getattr(data, name) is not None]
+    for i, name in enumerate(kinds):
+        part, colour = slice(i * size, (i + 1) * size), COLOURS[i]
+        dots = {"marker": "o", "color": colour, "linestyle": "none", "markersize": 3, "alpha": 0.5}
+        observed, fitted = result.observed[part], result.predicted[part]
+        above.plot(frequency, observed, label=f"{name} modulus, data", **dots)
+        above.plot(frequency, fitted, color=colour, label="fit")
+        below.plot(frequency, 100.0 * (fitted / observed - 1.0), **dots)
+    for tau in result.model.tau_s:
+        above.axvline(1.0 / (2.0 * np.pi * tau), color="0.8", linewidth=0.8, zorder=0)
+    above.set_xscale("log")
+    above.set_yscale("log")
+    above.set_title(f"{len(result.model.tau_s)} branches at {data.T_ref_C:g} °C", fontsize=10)
+    above.set_ylabel("modulus [N/mm²]")
+    above.legend(fontsize=8)
+    below.set_xlabel(f"reduced frequency at {data.T_ref_C:g} °C [Hz]")
+    below.set_ylabel("fit/data - 1 [%]")
     return figure
 
 

@@ -85,7 +85,7 @@ def select_data(
     zero: Zero = "none",
 ) -> StressData:
     """Read, check and choose the points of a fit (see `calibration.fit_hyperelastic`)."""
-    source, notes = _read(table, modes)
+    source, notes = read_stress_table(table, modes[0] if modes and len(modes) == 1 else None)
     stretch, mode = source.numbers("stretch", quantities.STRETCH), source.words("mode", MODES)
     stress = source.numbers(STRESS, quantities.STRESS)
     check_points(source, stretch, stress, mode)
@@ -146,17 +146,22 @@ class _Account:
         self.keep = self.keep & chosen
 
 
-def _read(table: pd.DataFrame | str | Path, modes: Sequence[str] | None) -> tuple[Table, list[str]]:
-    """The table with the columns of a fit; strains become stretches, and that is said."""
+def read_stress_table(
+    table: pd.DataFrame | str | Path, mode: str | None
+) -> tuple[Table, list[str]]:
+    """The table with the columns of a fit; strains become stretches, and that is said.
+
+    `mode` is that of tables without a column for it.
+    """
     source, notes = read_table(table, (STRESS,)), []
     frame = source.frame
     for column, factor in (("strain", 1.0), ("strain_percent", 0.01)):
         if source.has(column) and not source.has("stretch"):
             frame = frame.assign(stretch=1.0 + factor * source.numbers(column))
             notes.append(f"the stretch is 1 + {column}" + ("" if factor == 1.0 else "/100"))
-    if not source.has("mode") and modes is not None and len(modes) == 1:
-        frame = frame.assign(mode=modes[0])
-        notes.append(f"no column mode: every row is {modes[0]}, as --mode says")
+    if not source.has("mode") and mode is not None:
+        frame = frame.assign(mode=mode)
+        notes.append(f"no column mode: every row is {mode}, as --mode says")
     if frame is not source.frame:
         frame.attrs = source.frame.attrs
         source = replace(source, frame=frame)

@@ -200,3 +200,16 @@ def _sweep(
         f"several sweeps at {temperature:g} deg C (rows {rows.min()} to {rows.max()}) differ by up "
         f"to {apart:.2g} decades at one frequency; their geometric mean is used"
     ]
+
+
+def one_sweep(source: Table) -> tuple[pd.DataFrame, float | None]:
+    """Points of a table at one temperature (``row, frequency_Hz`` and the quantities) and that."""
+    f = _frequency(source)
+    values = {name: source.numbers(name) for name in QUANTITIES if source.has(name)}
+    if np.unique(f).size < _LEAST_FREQUENCIES:
+        source.refuse_at(
+            0, FREQUENCY if source.has(FREQUENCY) else OMEGA,
+            f"{np.unique(f).size} frequencies", f"at least {_LEAST_FREQUENCIES}",
+        )  # fmt: skip
+    T = float(source.numbers("T_C")[0]) if source.has("T_C") else None
+    return pd.DataFrame({"row": source.rows, FREQUENCY: f, **values}), T

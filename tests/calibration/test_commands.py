@@ -14,9 +14,10 @@ from calibration.conductance.heating_rig import HeatingRig
 from calibration.datasets import dataset_path
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synthetic_sweeps
 from contact import HuemerFriction
-from fem import simulate
+from fem import Case, simulate
 from fem.sweeps import case as sweep_case
 from materials import WLF
+from tests.calibration.memory import made_up_tests
 from tests.calibration.partition.made_up_slides import RIGID
 
 
@@ -241,3 +242,34 @@ def test_the_same_data_give_the_same_bytes(tmp_path):
         run(["hyperelastic", dataset_path("kawabata1981"), "--quiet", "-o", tmp_path / name])
     for path in (tmp_path / "a").iterdir():
         assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes()
+
+
+@pytest.mark.parametrize("kind", ["histories", "sweeps", "softening"])
+def test_memory_writes_parameters_that_a_case_takes(kind, tmp_path, capsys):
+    make = {
+        "histories": made_up_tests.stepwise_relaxation,
+        "sweeps": made_up_tests.sweeps,
+        "softening": made_up_tests.softening_cycles,
+    }[kind]
+    make(1).to_csv(tmp_path / "t.csv", index=False)
+    output, command = tmp_path / "out", "mullins" if kind == "softening" else "viscoelastic"
+    assert run([command, tmp_path / "t.csv", "-o", output]) == 0
+    printed = capsys.readouterr().out
+    names = {"parameters.toml", "fit.csv", "fit.png"}
+    if command == "viscoelastic":
+        names.add("branches.csv")
+        assert "tau2_s" in printed
+    assert {path.name for path in output.iterdir()} == names
+    written = tomllib.loads((output / "parameters.toml").read_text())
+    points = pd.read_csv(output / "fit.csv")
+    assert len(points) == written["fit"]["n_data"]
+    (tmp_path / "case.toml").write_text(
+        '[rubber]\nparameters = "out/parameters.toml"\n[loading]\nmean_pressure_N_per_mm2 = 0.2\n'
+        "velocity_mm_per_s = 50.0\ndistance_mm = 1.0\n"
+    )
+    rubber = Case.from_toml(tmp_path / "case.toml").rubber.material()
+    if command == "mullins":
+        assert rubber.damage.m == written["fit"]["values"]["m"]
+    else:
+        assert rubber.viscous.g[0] == written["fit"]["values"]["g1"]
+        assert (rubber.viscous.shift is None) == (kind == "histories")

@@ -11,11 +11,13 @@ import pandas as pd
 import pytest
 
 import treadfem
+from calibration.commands import KINDS
 from calibration.conductance.fit import synthetic_heating_record
 from calibration.conductance.heating_rig import HeatingRig
 from calibration.synthetic import synthetic_bar_cycles, synthetic_friction
 from contact import HuemerFriction
 from materials import WLF
+from tests.calibration.memory import made_up_tests
 from tests.calibration.partition.made_up_slides import RIGID
 from tests.documents import PAGES, ROOT
 
@@ -68,6 +70,8 @@ def measurements(words):
         return sweeps() if name == "sweeps.csv" else shift_factors()
     return {
         "hyperelastic": lambda: synthetic_bar_cycles(1),
+        "viscoelastic": lambda: made_up_tests.stepwise_relaxation(0),
+        "mullins": lambda: made_up_tests.softening_cycles(0),
         "friction": friction,
         "conductance": lambda: synthetic_heating_record(HeatingRig(ambient_C=20.0), every_s=60.0),
         "partition": slides,
@@ -77,7 +81,7 @@ def measurements(words):
 @pytest.mark.parametrize("pages", [PAGES, (CALIBRATION,)], ids=["docs", "calibration"])
 def test_every_kind_is_shown(pages):
     kinds = {words[0] for words in examples(*pages)}
-    assert kinds == {"hyperelastic", "friction", "wlf", "conductance", "partition"}
+    assert kinds == set(KINDS)
 
 
 @pytest.mark.slow

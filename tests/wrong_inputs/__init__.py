@@ -8,6 +8,7 @@ from tests.wrong_inputs.cases import LOADING, SET_SYNTAX, WRONG_CASES
 from tests.wrong_inputs.commands import EXPORTS, RIGS, STUDIES
 from tests.wrong_inputs.measured import MEASURED
 from tests.wrong_inputs.memory import MEMORY
+from tests.wrong_inputs.memory_tests import MEMORY_TESTS
 from tests.wrong_inputs.rows import WrongInput, of_case
 from tests.wrong_inputs.texts import READING
 from tests.wrong_inputs.units import UNITS
@@ -17,5 +18,5 @@ __all__ = ["LOADING", "UNUSUAL_INPUTS", "WRONG_INPUTS", "WrongInput"]
 
 WRONG_INPUTS = [
     *map(of_case, [*WRONG_CASES, *RANGES, *MEMORY, *SET_SYNTAX]),
-    *(UNITS + MEASURED + READING + RIGS + STUDIES + EXPORTS),
+    *(UNITS + MEASURED + READING + RIGS + STUDIES + EXPORTS + MEMORY_TESTS),
 ]

@@ -1,0 +1,1 @@
+"""Fits of what rubber remembers: relaxation times and softening."""

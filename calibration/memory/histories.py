@@ -1,0 +1,236 @@
+"""Stress histories of homogeneous tests, row by row as they were recorded."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from calibration.data.row_account import left_out
+from calibration.data.tables import Table
+from calibration.memory.spectrum import log_grid
+from calibration.rubber.stress_checks import STRESS, check_points, check_sign, check_zero
+from calibration.rubber.stress_data import StressData, read_stress_table
+from materials import plausible as quantities
+from materials.arrays import FloatArray
+from materials.homogeneous import branch_histories, reduced_steps
+from materials.hyperelastic_base import MODES, Mode
+from materials.prony import Prony
+from materials.wlf import WLF
+
+_LEAST_ROWS = 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class History:
+    """One test.
+
+    Attributes
+    ----------
+    name, mode : str
+    here : (n,) int array
+        Its rows in the table, in the order of recording.
+    time : (n,) float array or None
+        Times [s], not falling; None where the order of the rows is all there is.
+    stretch, stress : (n,) float array
+        Stretch [-] and nominal stress [N/mm^2].
+    T_C : (n,) float array or None
+        Temperature [deg C].
+    """
+
+    name: str
+    mode: Mode
+    here: NDArray[np.intp]
+    time: FloatArray | None
+    stretch: FloatArray
+    stress: FloatArray
+    T_C: FloatArray | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Histories:
+    """All tests of a table.
+
+    Attributes
+    ----------
+    tests : tuple of History
+    table : Table
+    compared : (n,) bool array
+        Rows that a fit is compared with; the others load the rubber only.
+    about : dict
+        What became of the rows, for the parameter file.
+    """
+
+    tests: tuple[History, ...]
+    table: Table
+    compared: NDArray[np.bool_]
+    about: dict[str, Any]
+
+    @property
+    def points(self) -> StressData:
+        """Points that are compared, as a fit without memory takes them."""
+        stretch, stress = np.empty((2, len(self.table)))
+        mode = np.empty(len(self.table), dtype="<U16")
+        for test in self.tests:
+            stretch[test.here], stress[test.here] = test.stretch, test.stress
+            mode[test.here] = test.mode
+        at = self.compared
+        return StressData(
+            stretch=stretch[at], stress=stress[at], mode=mode[at],
+            table=self.table.select(at), selection=self.about,
+        )  # fmt: skip
+
+    @property
+    def time(self) -> FloatArray | None:
+        """Times of all rows [s]; None of tests without."""
+        if any(test.time is None for test in self.tests):
+            return None
+        return self.table.numbers("time_s")
+
+    @property
+    def names(self) -> NDArray[np.str_]:
+        """Name of the test of each row that is compared."""
+        names = np.empty(len(self.table), dtype=object)
+        for test in self.tests:
+            names[test.here] = test.name
+        return names[self.compared].astype(str)
+
+
+def read_histories(
+    table: pd.DataFrame | str | Path,
+    *,
+    timed: bool = True,
+    mode: Mode = "uniaxial",
+    from_cycle: int | None = None,
+) -> Histories:
+    """Read the tests of a table.
+
+    Parameters
+    ----------
+    table : DataFrame or path of a CSV file
+        Columns ``stretch`` (or ``strain``, ``strain_percent``) and ``nominal_stress_N_per_mm2`` in
+        the order of recording; ``time_s``, needed if `timed`; optional ``test`` (a name for each
+        specimen, which begins at rest and virgin), ``mode``, ``T_C`` and ``cycle``.
+    mode : str
+        Mode of tests without a column for it.
+    from_cycle : int, optional
+        Rows of earlier cycles load the rubber and are not compared.
+    """
+    source, notes = read_stress_table(table, mode)
+    if timed:
+        source.require(("time_s",))
+    columns = _columns(source)
+    keep = np.ones(len(source), dtype=bool)
+    if from_cycle is not None:
+        source.require(("cycle",))
+        keep = source.numbers("cycle") >= from_cycle
+        if not keep.any():
+            source.refuse(
+                column="cycle", found="no row", expected=f"rows of the cycle {from_cycle} or later"
+            )
+    tests = tuple(_tests(source, columns))
+    first = np.isin(np.arange(len(source)), [test.here[0] for test in tests])
+    check_zero(source, np.where(first, columns["stretch"], np.nan), columns["stress"])
+    used = source.select(keep)
+    check_sign(used, columns["stretch"][keep], columns["stress"][keep])
+    out = left_out(source.rows, ~keep, f"before the cycle {from_cycle}; they load the rubber")
+    about = {
+        "tests": [test.name for test in tests],
+        "modes": sorted({test.mode for test in tests}),
+        "rows_used": int(keep.sum()),
+        "rows_left_out": [str(entry) for entry in out],
+        "notes": notes,
+    }
+    return Histories(tests=tests, table=source, compared=keep, about=about)
+
+
+def _columns(source: Table) -> dict[str, Any]:
+    stretch, mode = source.numbers("stretch", quantities.STRETCH), source.words("mode", MODES)
+    stress = source.numbers(STRESS, quantities.STRESS)
+    check_points(source, stretch, stress, mode)
+    if not np.any(stress):
+        source.refuse_at(0, STRESS, "zero in every row", "stresses in N/mm^2, not all zero")
+    names = source.frame["test"].astype(str).str.strip() if source.has("test") else None
+    return {
+        "stretch": stretch,
+        "stress": stress,
+        "mode": mode,
+        "time": source.numbers("time_s") if source.has("time_s") else None,
+        "T_C": source.numbers("T_C") if source.has("T_C") else None,
+        "test": np.full(len(source), "") if names is None else names.to_numpy(dtype=str),
+    }
+
+
+def _tests(source: Table, columns: dict[str, Any]) -> list[History]:
+    label = list(zip(columns["test"], columns["mode"], strict=True))
+    several = len({mode for _, mode in label}) > 1
+    found = []
+    for test, mode in dict.fromkeys(label):
+        here = np.flatnonzero((columns["test"] == test) & (columns["mode"] == mode))
+        name = " ".join(filter(None, (test, mode if several or not test else "")))
+        time, T_C = columns["time"], columns["T_C"]
+        if time is not None:
+            _refuse_falling(source, time, here)
+        if here.size < _LEAST_ROWS:
+            source.refuse_at(
+                int(here[-1]), "stretch", f"{here.size} rows of the test {name}",
+                f"at least {_LEAST_ROWS} of each",
+            )  # fmt: skip
+        found.append(
+            History(
+                name=name,
+                mode=cast(Mode, str(mode)),
+                here=here,
+                time=None if time is None else time[here],
+                stretch=columns["stretch"][here],
+                stress=columns["stress"][here],
+                T_C=None if T_C is None else T_C[here],
+            )
+        )
+    return found
+
+
+def _refuse_falling(source: Table, time: FloatArray, here: NDArray[np.intp]) -> None:
+    steps = np.diff(time[here])
+    if np.any(steps < 0.0):
+        i = int(np.flatnonzero(steps < 0.0)[0])
+        source.refuse_at(
+            int(here[i + 1]), "time_s",
+            f"{time[here[i + 1]]:g} after {time[here[i]]:g}",
+            "times that do not fall (a column test tells several tests apart)",
+        )  # fmt: skip
+    if not np.any(steps > 0.0):
+        source.refuse_at(int(here[0]), "time_s", "one time", "times that go on")
+
+
+def time_range(data: Histories) -> tuple[float, float]:
+    """Shortest time between rows and longest test [s]."""
+    times = [test.time for test in data.tests if test.time is not None]
+    steps = np.concatenate([np.diff(time) for time in times])
+    return float(steps[steps > 0.0].min()), float(max(np.ptp(time) for time in times))
+
+
+def branch_responses(
+    data: Histories, tau_s: tuple[float, float], shift: WLF | None, T_ref_C: float
+) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:
+    """Stress of branches of modulus 1 in the rows that are compared, and its slope by log tau.
+
+    The histories are followed once, on a grid of relaxation times; a cubic spline in their
+    logarithm lies between (its error is below 1e-5 of the stress).
+    """
+    nodes = log_grid(tau_s)
+    spectrum = Prony(
+        g=tuple(np.ones(nodes.size)), tau_s=tuple(np.exp(nodes)), shift=shift, T_ref_C=T_ref_C
+    )
+    stress = np.empty((len(data.table), nodes.size))
+    for test in data.tests:
+        assert test.time is not None
+        h = reduced_steps(spectrum, test.time, None if shift is None else test.T_C)
+        stress[test.here] = branch_histories(h, test.stretch, test.mode).stress
+    curve = CubicSpline(nodes, stress[data.compared].T)
+    slope = curve.derivative()
+    return lambda log_tau: (curve(log_tau).T, slope(log_tau).T)
