@@ -5,7 +5,13 @@ from typing import TYPE_CHECKING
 from fem.files.faces import face
 
 if TYPE_CHECKING:
-    from fem.files.atomic import remove_remains, replacing, staged_directory, write_text
+    from fem.files.atomic import (
+        remove_remains,
+        replacing,
+        staged_directory,
+        write_table,
+        write_text,
+    )
     from fem.files.faces import face
     from fem.files.interruption import at_step_ends, gently, listening, requested
     from fem.files.machine_faults import OUT_OF_MEMORY, cause, one_line

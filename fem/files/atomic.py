@@ -9,8 +9,12 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fem.files.interruption import deferring
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 #: Every unfinished file and folder begins with this; nothing that is finished does.
 UNFINISHED = ".unfinished-"
@@ -20,6 +24,13 @@ def write_text(path: str | Path, text: str) -> None:
     """Write a UTF-8 text file under a temporary name, then rename it."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
+
+
+def write_table(path: str | Path, table: pd.DataFrame, number_format: str | None = None) -> Path:
+    """Write a table as CSV, without its index, under a temporary name, then rename it."""
+    text = table.to_csv(index=False, lineterminator="\n", float_format=number_format)
+    write_text(path, text)
+    return Path(path)
 
 
 @contextmanager

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.files import write_text
+from fem.files import write_table, write_text
 from validation.claims.evidence import Evidence
 from validation.claims.ledger import ledger_table
 from validation.claims.text import ledger_text
@@ -18,6 +18,6 @@ def write_claims(directory: str | Path) -> tuple[Path, Path]:
     directory = Path(directory)
     table = ledger_table(Evidence(directory))
     csv, text = directory / "claims.csv", directory / "claims.txt"
-    write_text(csv, table.to_csv(index=False, lineterminator="\n"))
+    write_table(csv, table)
     write_text(text, ledger_text(table))
     return csv, text

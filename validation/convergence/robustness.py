@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from fem.files import write_text
+from fem.files import write_table
 
 TABLE = Path(__file__).parents[1] / "robustness.csv"
 #: What was varied, under shorter names.
@@ -56,7 +56,7 @@ def robustness_table(summary: pd.DataFrame) -> pd.DataFrame:
 def main(path: str) -> None:
     """Write the committed table anew."""
     table = robustness_table(pd.read_csv(path))
-    write_text(TABLE, table.to_csv(index=False, lineterminator="\n"))
+    write_table(TABLE, table)
     print(f"{TABLE}: {len(table)} cases, {(table['status'] == 'ok').sum()} ok")
 
 

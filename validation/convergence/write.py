@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from fem.files import write_text
+from fem.files import write_table, write_text
 from validation.convergence.onset import swept_runs
 from validation.convergence.robustness import TABLE as ROBUSTNESS
 from validation.convergence.table import CONVERGENCE, ONSET, convergence_table, onset_table
@@ -30,7 +30,7 @@ def write_tables(convergence: Path, onset: Path) -> None:
         ONSET: onset_table(swept_runs("onset", onset)),
     }
     for path, table in tables.items():
-        write_text(path, table.to_csv(index=False, lineterminator="\n"))
+        write_table(path, table)
 
 
 def block() -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
+from fem.files import write_table
 from fem.sweeps import StudyRun, study_runs
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.state_panels import reached
@@ -18,9 +19,7 @@ from validation.studies import cases_of
 def make(directory: Path) -> Path:
     """Draw figure 10 from the study of compounds and write the curves beside it."""
     runs = study_runs(cases_of("compounds"), directory)
-    profile_table(runs, {"compound": COMPOUND}).to_csv(
-        directory / "fig10.csv", index=False, lineterminator="\n"
-    )
+    write_table(directory / "fig10.csv", profile_table(runs, {"compound": COMPOUND}))
     return save(draw(runs), directory / "fig10.png")
 
 

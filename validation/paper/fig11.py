@@ -6,6 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from fem.files import write_table
 from fem.sweeps import StudyRun, study_runs
 from validation.drawing.state_panels import reached
 from validation.drawing.style import BLUE, PAGE_WIDTH, VERMILLION, new_figure, save, styled
@@ -30,7 +31,7 @@ def make(directory: Path, measured: Measurements | None = None) -> Path:
     """
     runs = study_runs(cases_of("velocities"), directory)
     table = profile_table(runs, {"velocity_mm_per_s": VELOCITY, "law": LAW})
-    table.to_csv(directory / "fig11.csv", index=False, lineterminator="\n")
+    write_table(directory / "fig11.csv", table)
     return save(draw(runs, measured), directory / "fig11.png")
 
 

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from fem.files import write_table
 from fem.sweeps import StudyRun, study_runs
 from validation.drawing.compound_names import COMPOUND_LOOKS
 from validation.drawing.style import BLACK, PAGE_WIDTH, new_figure, save, styled
@@ -43,7 +44,7 @@ def make(directory: Path, measured: Measurements | None = None) -> Path:
     Measured points are drawn into the panel of their velocity.
     """
     table = point_table(study_runs(cases_of("pressures"), directory))
-    table.to_csv(directory / "fig12.csv", index=False, lineterminator="\n")
+    write_table(directory / "fig12.csv", table)
     return save(draw(table, measured), directory / "fig12.png")
 
 

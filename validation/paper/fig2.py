@@ -8,6 +8,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from calibration.synthetic import synthetic_dumbbell_cycles
+from fem.files import write_table
 from validation.drawing.style import GREY, PAGE_WIDTH, new_figure, save, styled
 from validation.paper.stress_panels import (
     SYNTHETIC_NOTE,
@@ -26,8 +27,8 @@ def make(directory: Path) -> Path:
     """Draw figure 2 and write the synthetic test and the curves of the sets beside it."""
     test = synthetic_dumbbell_cycles()
     marked = test.assign(used=test["cycle"] == chosen_cycle(test))
-    marked.to_csv(directory / "fig2_synthetic_test.csv", index=False, lineterminator="\n")
-    set_table(STRAIN).to_csv(directory / "fig2.csv", index=False, lineterminator="\n")
+    write_table(directory / "fig2_synthetic_test.csv", marked)
+    write_table(directory / "fig2.csv", set_table(STRAIN))
     return save(draw(test), directory / "fig2.png")
 
 

@@ -8,6 +8,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from calibration.synthetic import synthetic_bar_cycles
+from fem.files import write_table
 from validation.drawing.style import GREY, PAGE_WIDTH, new_figure, save, styled
 from validation.paper.stress_panels import (
     SYNTHETIC_NOTE,
@@ -31,10 +32,8 @@ def make(directory: Path) -> Path:
         test.assign(series=series, used=test["cycle"] == chosen_cycle(test))
         for series, test in tests.items()
     ]
-    pd.concat(marked).to_csv(
-        directory / "fig3_synthetic_tests.csv", index=False, lineterminator="\n"
-    )
-    set_table(STRAIN[2]).to_csv(directory / "fig3.csv", index=False, lineterminator="\n")
+    write_table(directory / "fig3_synthetic_tests.csv", pd.concat(marked))
+    write_table(directory / "fig3.csv", set_table(STRAIN[2]))
     return save(draw(tests), directory / "fig3.png")
 
 

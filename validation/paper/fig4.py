@@ -11,6 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 
 from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction
+from fem.files import write_table
 from validation.drawing.style import (
     BLACK,
     CURVES,
@@ -37,7 +38,7 @@ LEVELS = np.arange(14, 23) * 0.05
 def make(directory: Path) -> Path:
     """Draw figure 4 and write the table of both laws beside it."""
     table = friction_table()
-    table.to_csv(directory / "fig4.csv", index=False, lineterminator="\n", float_format="%.6g")
+    write_table(directory / "fig4.csv", table, "%.6g")
     return save(draw(table), directory / "fig4.png")
 
 

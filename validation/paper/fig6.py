@@ -19,6 +19,7 @@ from calibration.conductance.fit import (
 )
 from calibration.conductance.heating_rig import HeatingRig, RigModel
 from calibration.fitting.core import FitResult
+from fem.files import write_table
 from validation.drawing.style import (
     BLACK,
     CURVES,
@@ -44,9 +45,8 @@ def make(directory: Path) -> Path:
     record = synthetic_heating_record(rig, h_W_per_m2K=MADE_WITH)
     found = fit_conductance(record, rig)
     curves = fitted_curves(rig, record, found)
-    options = {"index": False, "lineterminator": "\n", "float_format": "%.4f"}
-    record.to_csv(directory / "fig6_synthetic_record.csv", **options)  # type: ignore[call-overload]
-    curves.to_csv(directory / "fig6.csv", **options)  # type: ignore[call-overload]
+    write_table(directory / "fig6_synthetic_record.csv", record, "%.4f")
+    write_table(directory / "fig6.csv", curves, "%.4f")
     return save(draw(rig, record, curves, found), directory / "fig6.png")
 
 

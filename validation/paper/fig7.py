@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import ConnectionPatch, Rectangle
 
 from fem.case import Case
+from fem.files import write_table
 from fem.mesh import BlockMesh
 from fem.simulation import mesh_of
 from validation.drawing.block_drawing import (
@@ -42,8 +43,8 @@ def make(directory: Path) -> Path:
     """Draw figure 7 and write the node coordinates beside it."""
     case = introductory_case()
     mesh = mesh_of(case)
-    nodes = pd.DataFrame(mesh.points, columns=["X_mm", "Y_mm"])
-    nodes.to_csv(directory / "fig7.csv", index_label="node", lineterminator="\n")
+    nodes = pd.DataFrame(mesh.points, columns=["X_mm", "Y_mm"]).rename_axis("node")
+    write_table(directory / "fig7.csv", nodes.reset_index())
     return save(draw(case, mesh), directory / "fig7.png")
 
 

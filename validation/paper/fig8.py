@@ -7,6 +7,7 @@ from pathlib import Path
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from fem.files import write_table
 from fem.results import Result
 from validation.drawing.history_panels import draw_friction, draw_temperature
 from validation.drawing.state_panels import WIDTHS, draw_fields, last_state, reached
@@ -19,7 +20,7 @@ SHOWN = ("time_s", "sliding_distance_mm", "friction_coefficient", "T_max_C", "T_
 def make(directory: Path) -> Path:
     """Draw figure 8 from the introductory run, which is simulated first if it is not there."""
     result = introductory_run(directory)
-    result.history[list(SHOWN)].to_csv(directory / "fig8.csv", index=False, lineterminator="\n")
+    write_table(directory / "fig8.csv", result.history[list(SHOWN)])
     return save(draw(result), directory / "fig8.png")
 
 

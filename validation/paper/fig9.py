@@ -11,6 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from fem.files import write_table
 from fem.sweeps import StudyRun, study_runs
 from validation.analysis.shape import contour
 from validation.drawing.block_drawing import (
@@ -35,8 +36,8 @@ def make(directory: Path) -> Path:
     """Draw figure 9 from the study of compounds and write extremes and contours beside it."""
     runs = study_runs(cases_of("compounds"), directory)
     states = by_compound(runs)
-    extremes_table(states).to_csv(directory / "fig9.csv", index=False, lineterminator="\n")
-    contour_table(states).to_csv(directory / "fig9_contours.csv", index=False, lineterminator="\n")
+    write_table(directory / "fig9.csv", extremes_table(states))
+    write_table(directory / "fig9_contours.csv", contour_table(states))
     return save(draw(states, stopped(runs)), directory / "fig9.png")
 
 

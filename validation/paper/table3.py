@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from fem.files import write_table, write_text
 from validation.paper.introductory import introductory_case
 
 #: Row of the paper, unit, section and key for rubber, section and key for asphalt.
@@ -23,11 +24,10 @@ _ROWS = (
 def make(directory: Path) -> Path:
     """Write table 3 as CSV and as text; the text's path is returned."""
     table = thermal_table()
-    table.to_csv(directory / "table3.csv", index=False, lineterminator="\n")
+    write_table(directory / "table3.csv", table)
     text = "Table 3: parameters of rubber and asphalt, read back from the default case.\n\n"
-    path = directory / "table3.txt"
-    path.write_text(text + table.to_string(index=False, na_rep="-") + "\n", encoding="utf-8")
-    return path
+    write_text(directory / "table3.txt", text + table.to_string(index=False, na_rep="-") + "\n")
+    return directory / "table3.txt"
 
 
 def thermal_table() -> pd.DataFrame:

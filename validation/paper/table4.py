@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from fem.files import write_table, write_text
 from fem.sweeps import StudyRun, study_runs
 from validation.analysis.paper_numbers import PAPER_N_PER_MM
 from validation.drawing.compound_names import COMPOUND_LOOKS
@@ -21,11 +22,10 @@ The paper's unit is kN for a plane model 1 m deep, which is the same number in N
 def make(directory: Path) -> Path:
     """Write table 4 as CSV and as text; the text's path is returned."""
     table = force_table(study_runs(cases_of("compounds"), directory))
-    table.to_csv(directory / "table4.csv", index=False, lineterminator="\n")
-    path = directory / "table4.txt"
+    write_table(directory / "table4.csv", table)
     readable = table.to_string(index=False, float_format=lambda value: f"{value:.2f}", na_rep="-")
-    path.write_text(f"{_HEADING}\n{readable}\n", encoding="utf-8")
-    return path
+    write_text(directory / "table4.txt", f"{_HEADING}\n{readable}\n")
+    return directory / "table4.txt"
 
 
 def force_table(runs: list[StudyRun]) -> pd.DataFrame:

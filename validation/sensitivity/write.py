@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fem.files import write_text
+from fem.files import write_table, write_text
 from fem.sweeps import study_runs
 from validation.drawing.style import save
 from validation.sensitivity.table import sensitivity_table
@@ -22,7 +22,7 @@ def write_sensitivity(directory: Path) -> Path:
     """
     directory = Path(directory)
     table = sensitivity_table(study_runs(cases_of(STUDY), directory))
-    write_text(directory / "sensitivity.csv", table.to_csv(index=False, lineterminator="\n"))
+    write_table(directory / "sensitivity.csv", table)
     save(draw(table), directory / "sensitivity.png")
     path = directory / "sensitivity.txt"
     write_text(path, sensitivity_text(table))
