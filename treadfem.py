@@ -28,9 +28,9 @@ from fem.files import (
     one_line,
     open_standard_descriptors,
     say_of,
+    version_of,
     warn,
 )
-from fem.files.program_version import version_of
 from fem.results.output_folder import check_output_file, chosen_output, output_folder
 from validation.commands import add_arguments as add_paper_commands
 from validation.drawing import draw_missing

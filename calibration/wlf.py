@@ -20,7 +20,7 @@ from calibration.data.tables import Table, read_table
 from calibration.fitting.core import FitResult, Problem, fit
 from calibration.shifting.frequency_sweeps import is_sweep_table
 from calibration.shifting.master_curve import MasterCurve, shift_sweeps
-from fem.files.program_version import version_of
+from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.wlf import WLF
 

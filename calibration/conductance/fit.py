@@ -24,7 +24,7 @@ from calibration.conductance.heating_rig import Heater, HeatingRig, RigModel
 from calibration.data.tables import Table, read_table
 from calibration.fitting.core import FitResult, Loss, Problem, fit
 from contact.conductance import ContactSurface, GapConductance, mikic_constant
-from fem.files.program_version import version_of
+from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.plausible import TEMPERATURE
 

@@ -20,7 +20,7 @@ from calibration.fitting.progress import stage
 from calibration.friction.curves import HUEMER_SCALE, LAWS, FrictionCurve
 from calibration.friction.data import FrictionData, read_friction
 from contact.friction import FrictionLaw, shifted
-from fem.files.program_version import version_of
+from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.wlf import WLF
 

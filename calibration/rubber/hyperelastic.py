@@ -24,7 +24,7 @@ from calibration.rubber.stress_checks import STRESS, check_modulus
 from calibration.rubber.stress_data import Cycle, StressData, select_data
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
 from calibration.rubber.stress_zero import Zero
-from fem.files.program_version import version_of
+from fem.files import version_of
 from materials.arrays import FloatArray
 
 Weighting = Literal["equal", "modes", "relative"]

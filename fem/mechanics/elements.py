@@ -25,8 +25,8 @@ from functools import cached_property
 import numpy as np
 from skfem import Basis, ElementQuad1, ElementVector
 
-from fem.mesh.block import BlockMesh
-from fem.solvers.sparse_pattern import summed
+from fem.mesh import BlockMesh
+from fem.solvers import summed
 from materials.arrays import FloatArray, IntArray
 from materials.material import (
     EnergyDerivatives,

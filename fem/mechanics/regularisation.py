@@ -22,13 +22,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from fem.case.case import Case
-from fem.mesh.block import BlockMesh
-
-FloatArray = NDArray[np.float64]
+from fem.case import Case
+from fem.mesh import BlockMesh
+from materials.arrays import FloatArray
 
 #: Loss modulus at the rate of the snaps, over the slow shear modulus, from which on the rubber
 #: needs no help. 8 mm of the introductory example on the coarse mesh without help: with 0.27 and

@@ -50,6 +50,28 @@ def test_another_program_makes_it_again(tmp_path, making, monkeypatch):
     assert kept("fig1", tmp_path, making).again
 
 
+def test_a_changed_docstring_or_comment_leaves_it_and_a_changed_constant_does_not(
+    tmp_path, making, monkeypatch
+):
+    source = tmp_path / "program" / "validation" / "fig1.py"
+    source.parent.mkdir(parents=True)
+    program = module.program_version()
+    monkeypatch.setattr(module, "program_version", lambda: program)
+    monkeypatch.setattr(module, "_FOLDERS", (source.parent,))
+    monkeypatch.setattr("fem.files.program_version.ROOT", tmp_path / "program")
+
+    def made_again(text):
+        source.write_text(text)
+        module._program_fingerprint.cache_clear()
+        return kept("fig1", tmp_path, making).again
+
+    assert made_again('"""Figure 1."""\n\nWIDTH = 80.0  # mm\n')
+    assert not made_again('"""Figure 1 of the paper."""\nWIDTH = 80.0  # of the page\n')
+    assert made_again('"""Figure 1 of the paper."""\nWIDTH = 81.0  # of the page\n')
+    monkeypatch.undo()
+    module._program_fingerprint.cache_clear()
+
+
 def test_changed_input_makes_it_again(tmp_path, making):
     measured = tmp_path / "measured.csv"
     measured.write_text("T_max_C\n48.0\n")
