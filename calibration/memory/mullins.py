@@ -12,11 +12,11 @@ from calibration.data.errors import DataError
 from calibration.fitting.core import FitResult, Loss, Problem, fit, refuse_no_fit
 from calibration.fitting.minimise import minimise
 from calibration.fitting.progress import stage
-from calibration.fitting.provenance import version
 from calibration.fitting.stability import check_stability
 from calibration.memory.histories import Histories, read_histories
 from calibration.rubber.stress_checks import STRESS, check_modulus
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
+from fem.files.program_version import version_of
 from materials.arrays import FloatArray
 from materials.hyperelastic_base import Mode
 from materials.rubber import Rubber
@@ -207,7 +207,7 @@ def _completed(law: StressModel, model: str, data: Histories, result: FitResult)
             **data.about,
             "levels": levels,
             "rmse_of_largest_stress": result.rmse / float(np.abs(result.observed).max()),
-            "version": version(),
+            "version": version_of(),
             "stability": stability,
         },
         section={"rubber": {**law.section(model, values), "mullins": keys, "window": window}},

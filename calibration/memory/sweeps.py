@@ -14,7 +14,6 @@ from calibration.data.tables import Table, read_table
 from calibration.fitting.core import FitResult, Loss, fit, refuse_no_fit
 from calibration.fitting.minimise import minimise
 from calibration.fitting.problem import Problem
-from calibration.fitting.provenance import version
 from calibration.memory.spectrum import Candidate, MemoryCurve, candidates, memory_problem
 from calibration.memory.viscoelastic import (
     chosen,
@@ -26,6 +25,7 @@ from calibration.memory.viscoelastic import (
 from calibration.shifting.frequency_sweeps import LOSS, MODULUS, TAN_DELTA, one_sweep
 from calibration.shifting.master_curve import MasterCurve, shift_sweeps
 from calibration.wlf import fit_wlf
+from fem.files.program_version import version_of
 from materials.arrays import FloatArray
 from materials.prony import Prony
 from materials.wlf import WLF
@@ -170,7 +170,7 @@ def fit_sweeps(
         "model": "sweeps",
         **data.table.origin,
         **data.about,
-        "version": version(),
+        "version": version_of(),
         "tau_window_s": list(moduli_curve(data).tau_s),
         **criterion(found, best),
         "relative_rmse": float(np.sqrt(np.mean(relative**2))),

@@ -12,7 +12,6 @@ import pandas as pd
 from calibration.data.errors import DataError
 from calibration.fitting.core import FitResult, Loss, fit, refuse_no_fit
 from calibration.fitting.progress import stage
-from calibration.fitting.provenance import version
 from calibration.fitting.stability import check_stability
 from calibration.memory.histories import Histories, branch_responses, read_histories, time_range
 from calibration.memory.spectrum import (
@@ -25,6 +24,7 @@ from calibration.memory.spectrum import (
 )
 from calibration.rubber.stress_checks import STRESS, check_modulus
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
+from fem.files.program_version import version_of
 from materials.arrays import FloatArray
 from materials.hyperelastic_base import Mode
 from materials.prony import Prony
@@ -248,7 +248,7 @@ def _completed(work: HistoryFit, result: FitResult, found: dict[str, Any]) -> Fi
         **data.table.origin,
         **data.about,
         "weights": work.weights,
-        "version": version(),
+        "version": version_of(),
         **found,
         "rmse_of_largest_stress": result.rmse / float(np.abs(result.observed).max()),
         "stability": stability,
