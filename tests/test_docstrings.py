@@ -34,7 +34,7 @@ def test_a_wrong_example_is_found():
 HANDED_OUT = [
     pytest.param(getattr(package, name), id=f"{package.__name__}.{name}")
     for package in map(importlib.import_module, ("materials", "contact", "fem"))
-    for name in package.__all__
+    for name in getattr(package, "__all__", ("Case", "Result", "simulate"))
     if callable(getattr(package, name)) and not inspect.isabstract(getattr(package, name))
 ]
 
