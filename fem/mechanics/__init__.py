@@ -7,6 +7,7 @@ from fem.files.faces import face
 if TYPE_CHECKING:
     from fem.mechanics.elements import Past, Q1P0Elements
     from fem.mechanics.regularisation import SnapDamping
+    from fem.mechanics.rigid import RigidMechanics
     from fem.mechanics.state import MechanicalState
     from fem.mechanics.step import (
         BlockMechanics,

@@ -19,6 +19,7 @@ from scipy.sparse import coo_matrix, csc_matrix
 
 from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
 from contact.self_contact import Boundary, PairForces, Pairs, pair_forces, pair_tangents
+from fem.mechanics.account import CellFields, StepEnergies, Strains
 from fem.mechanics.elements import ElementForces, Past, Q1P0Elements, Viscosity, tangent_entries
 from fem.mechanics.state import MechanicalState
 from fem.mesh.block import BlockMesh
@@ -52,6 +53,8 @@ class StepLoad:
         Nodes and segments of the boundary that may meet; None without self-contact.
     T_C : (n,) float array or None
         Temperature of the nodes in the last accepted step, for rubber with a memory [C].
+    raised : float or None
+        Rise of the platen in the step, which takes the place of the force [mm].
     """
 
     dt: float
@@ -61,6 +64,7 @@ class StepLoad:
     damping: FloatArray | None = None
     pairs: Pairs | None = None
     T_C: FloatArray | None = None
+    raised: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,6 +141,10 @@ class BlockMechanics:
         Force residual [N/mm] that counts as converged.
     """
 
+    deforms = True
+    #: Weight of the forces at the start of a step in their mean over it: the trapezoidal rule.
+    start_weight = 0.5
+
     def __init__(
         self,
         mesh: BlockMesh,
@@ -183,19 +191,81 @@ class BlockMechanics:
         rows = self.equation[self.candidates]
         self._slots_x, self._owner = self.pattern.row_slots(rows[:, 0])
         self._slots_y, _ = self.pattern.row_slots(rows[:, 1])
+        self._slots_platen, _ = self.pattern.row_slots(np.array([size - 1]))
         self._numbered = dof.ravel() >= 0
+
+    @property
+    def size(self) -> int:
+        """Number of equations."""
+        return self.pattern.size
 
     def initial_state(self) -> MechanicalState:
         """Undeformed block at rest, just above the road."""
         n = len(self.mesh.points)
-        status = ContactStatus.all_open(self.candidates.size)
-        on_road = self.mesh.points[self.candidates, 1] <= 0.0
-        status = replace(status, kind=np.where(on_road, STICK, status.kind))
         zeros = np.zeros((n, 2))
         return MechanicalState(
-            u=zeros, velocity=zeros, p=np.zeros(len(self.mesh.cells)), status=status,
+            u=zeros, velocity=zeros, p=np.zeros(len(self.mesh.cells)), status=self._touching(zeros),
             rubber=self.elements.virgin,
         )  # fmt: skip
+
+    def _touching(self, u: FloatArray) -> ContactStatus:
+        """Nodes on the road stick."""
+        status = ContactStatus.all_open(self.candidates.size)
+        return replace(status, kind=np.where(self.gap(u) <= 0.0, STICK, status.kind))
+
+    def above_road(self, state: MechanicalState) -> MechanicalState:
+        """A block that hangs free, lowered as a whole to just above the road, at rest.
+
+        What is nearer to the road than a hundred-thousandth of the height touches it at once: a
+        block that has sprung back is even to rounding and to what the last step left.
+        """
+        gap = self.gap(state.u)
+        u = state.u - [0.0, gap.min()]
+        near = gap - gap.min() < 1e-5 * self.mesh.height
+        status = ContactStatus.all_open(self.candidates.size)
+        status = replace(status, kind=np.where(near, STICK, status.kind))
+        return replace(state, u=u, velocity=np.zeros_like(u), status=status, self_shear=None)
+
+    def energies(
+        self, evaluation: StepEvaluation, velocity: FloatArray, past: Past, rubber: StepEnd
+    ) -> StepEnergies:
+        """Energies of a solved step, and at its end with the nodal velocities (n, 2) [mm/s]."""
+        elements, forces, viscosity = self.elements, evaluation.elements, past.viscosity
+        assert forces is not None
+        viscous = 0.0
+        if viscosity is not None:
+            # Kelvin-Voigt dissipation S:(E - E_n)
+            S11, S22, S12 = viscosity.stress(forces.kinematics)
+            density = (S11**2 + S22**2 + 2.0 * S12**2) / viscosity.rate
+            viscous = float(np.sum(elements.weights * density))
+        return StepEnergies(
+            strain_energy=elements.strain_energy(forces.kinematics, rubber.stored),
+            kinetic=0.5 * float(np.sum(self.mass[:, None] * velocity**2)),
+            viscous=viscous,
+            rubber=elements.integral(rubber.viscous),
+            damage=elements.integral(rubber.damage),
+        )
+
+    def strains(self, evaluation: StepEvaluation) -> Strains:
+        """Deformation of an evaluated iterate."""
+        assert evaluation.elements is not None
+        kin = evaluation.elements.kinematics
+        return Strains(I1=kin.I1, J=kin.J, weights=self.elements.weights)
+
+    def fields(self, state: MechanicalState, T_C: FloatArray) -> CellFields:
+        """Stress and stretch of an accepted state."""
+        elements, rubber = self.elements, self.material(state, T_C)
+        kin = elements.kinematics(state.u)
+        softening = rubber.end(kin).softening
+        return CellFields(
+            cauchy=elements.cauchy(kin, Past(material=rubber)),
+            stretch=elements.largest_stretch(kin),
+            softening=None if softening is None else elements.mean(softening),
+        )
+
+    def bulk_power(self, rubber: StepEnd, dt: float) -> FloatArray | None:
+        """Power that the rubber's own viscosity dissipates, by node [mJ/s]; None without."""
+        return None if rubber.viscous is None else self.elements.nodal_integral(rubber.viscous) / dt
 
     def material(
         self, state: MechanicalState, T_C: FloatArray | None, dt: float = 0.0
@@ -299,7 +369,8 @@ class StepProblem:
         nodal = nodal.reshape(n, 2)
         acceleration = (self.velocity(u) - self.state.velocity) / load.dt
         nodal += system.mass[:, None] * acceleration
-        nodal[:, 1] += load.force * system._top_load
+        if load.raised is None:
+            nodal[:, 1] += load.force * system._top_load
         return np.asarray(nodal)
 
     def rubber_end(self, evaluation: StepEvaluation) -> StepEnd:
@@ -331,7 +402,8 @@ class StepProblem:
             pairs = pair_forces(self.load.pairs, system.mesh.points + x.u)
             np.add.at(nodal, self.load.pairs.nodes, pairs.residual.reshape(-1, 3, 2))
         status = x.status if first else self._next_status(x, nodal)
-        residual = self._residual(nodal, self.contact_forces(x.u, nodal), status)
+        forces = self.contact_forces(x.u, nodal)
+        residual = self._residual(nodal, forces, status, self._raised(x.u))
         mismatch = np.abs(elements.pressure_residual * np.sqrt(system.elements.volume)).max()
         merit = max(np.abs(residual).max(), mismatch) / system.tolerance
         return StepEvaluation(
@@ -374,10 +446,15 @@ class StepProblem:
             slip=self.slip(u),
         )  # fmt: skip
 
+    def _raised(self, u: FloatArray) -> float:
+        """Rise of the platen in the step [mm]."""
+        top = self.system.mesh.top[0]
+        return float(u[top, 1] - self.state.u[top, 1])
+
     def _residual(
-        self, nodal: FloatArray, forces: ContactForces, status: ContactStatus
+        self, nodal: FloatArray, forces: ContactForces, status: ContactStatus, platen: float
     ) -> FloatArray:
-        """Residual of the equations [N/mm]: forces, gaps (active) and slips (stick).
+        """Residual of the equations [N/mm]: forces, gaps (active), slips (stick), platen (raised).
 
         Gaps and slips are multiplied by the bulk modulus, so that all have one unit and size.
         """
@@ -388,6 +465,8 @@ class StepProblem:
         r[rows[slipping, 0]] = friction[slipping]
         r[rows[sticking, 0]] = stiffness * forces.slip[sticking]
         r[rows[active, 1]] = stiffness * forces.gap[active]
+        if self.load.raised is not None:
+            r[-1] = stiffness * (platen - self.load.raised)
         return r
 
     def direction(self, x: Iterate, evaluation: StepEvaluation) -> Iterate:
@@ -423,9 +502,10 @@ class StepProblem:
         return change
 
     def _held_equations(self, status: ContactStatus) -> IntArray:
-        """Equations that prescribe a displacement: gaps (active) and slips (sticking)."""
+        """Equations of a displacement: gaps (active), slips (sticking), platen (raised)."""
         rows = self.system.equation[self.system.candidates]
-        return np.concatenate([rows[status.active, 1], rows[status.sticking, 0]])
+        held = np.concatenate([rows[status.active, 1], rows[status.sticking, 0]])
+        return held if self.load.raised is None else np.append(held, self.system.size - 1)
 
     def tangent(self, evaluation: StepEvaluation) -> csc_matrix:
         """Tangent of the residual, with the status asked for by the iterate."""
@@ -486,6 +566,8 @@ class StepProblem:
         data[system._slots_x] += factor * data[system._slots_y]
         data[system._slots_x[status.sticking[owner]]] = 0.0
         data[system._slots_y[status.active[owner]]] = 0.0
+        if self.load.raised is not None:
+            data[system._slots_platen] = 0.0
         data[system._diagonal[self._held_equations(status)]] = system.elements.K_bulk
         return data
 

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
         SelfContact,
     )
     from fem.stepping.model_parts import Progress, mesh_of
-    from fem.stepping.point import Records, RunPoint, RunRecord, columns, snapshots_due
+    from fem.stepping.point import Records, RunPoint, RunRecord, columns
+    from fem.stepping.programme import programme
     from fem.stepping.progress import RunProgress
-    from fem.stepping.recorder import Recorder
     from fem.stepping.relaxation import RELAXED_ONSET, relaxed
-    from fem.stepping.rigid_run import simulate_rigid
+    from fem.stepping.run import Run
     from fem.stepping.step_control import StepController, StepPlan, landed
     from fem.stepping.summary import (
         closing_lines,

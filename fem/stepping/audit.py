@@ -10,9 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem.mechanics.step import BlockMechanics, platen_displacement
+from fem.mechanics.step import platen_displacement
+from fem.mesh.block import BlockMesh
 from fem.stepping.balance import balance_error, share
 from fem.stepping.coupled_step import AcceptedStep
+from fem.stepping.moment import Moment
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,44 +89,76 @@ class EnergyAudit:
 
 
 def audited(
-    audit: EnergyAudit, step: AcceptedStep, mechanics: BlockMechanics, *, snaps: bool = False
+    audit: EnergyAudit,
+    step: AcceptedStep,
+    mesh: BlockMesh,
+    *,
+    snaps: bool = False,
+    start_weight: float = 0.5,
 ) -> EnergyAudit:
-    """Audit after one more accepted step; one that `snaps` had no solution with less damping."""
-    before, after = step.before, step.after
-    forces, elements = step.evaluation.elements, mechanics.elements
-    assert forces is not None
-    force_x = float(step.evaluation.nodal[mechanics.mesh.top, 0].sum())
-    lowered = platen_displacement(mechanics.mesh, after.mechanics.u) - platen_displacement(
-        mechanics.mesh, before.mechanics.u
+    """Audit after one more accepted step.
+
+    Parameters
+    ----------
+    audit : EnergyAudit
+        That of the steps before.
+    step : AcceptedStep
+        The step.
+    mesh : BlockMesh
+        Reference mesh.
+    snaps : bool
+        Whether it had no solution with less damping.
+    start_weight : float
+        Weight of the forces at its start in their mean over it [-].
+    """
+    before, after, energies = step.before, step.after, step.energies
+    force_x = float(step.evaluation.nodal[mesh.top, 0].sum())
+    force_y = step.target.force
+    if step.target.raised is not None:
+        force_y = -float(step.evaluation.nodal[mesh.top, 1].sum())
+    lowered = platen_displacement(mesh, after.mechanics.u) - platen_displacement(
+        mesh, before.mechanics.u
     )
-    work = 0.5 * (audit.platen_force_x + force_x) * step.target.sweep
-    work += 0.5 * (audit.platen_force_y + step.target.force) * lowered
+    end_weight = 1.0 - start_weight
+    work = (start_weight * audit.platen_force_x + end_weight * force_x) * step.target.sweep
+    work += (start_weight * audit.platen_force_y + end_weight * force_y) * lowered
     dissipated = step.power * step.target.dt
-    kinetic = 0.5 * float(np.sum(mechanics.mass[:, None] * after.mechanics.velocity**2))
     friction = float(np.sum(dissipated)) + step.self_friction
-    viscous = viscous_work(step, mechanics)
+    viscous = energies.viscous
     return EnergyAudit(
         work_in=audit.work_in + work,
         friction=audit.friction + friction,
         viscous=audit.viscous + viscous,
         snaps=audit.snaps + viscous * snaps,
-        rubber=audit.rubber + elements.integral(step.rubber.viscous),
-        damage=audit.damage + elements.integral(step.rubber.damage),
-        strain_energy=elements.strain_energy(forces.kinematics, step.rubber.stored),
-        kinetic=kinetic,
+        rubber=audit.rubber + energies.rubber,
+        damage=audit.damage + energies.damage,
+        strain_energy=energies.strain_energy,
+        kinetic=energies.kinetic,
         created=audit.created + max(-friction, 0.0) + max(-viscous, 0.0),
         capped=audit.capped + float(np.sum(dissipated[step.capped])),
         dissipated=audit.dissipated + float(np.sum(dissipated)),
         platen_force_x=force_x,
-        platen_force_y=step.target.force,
+        platen_force_y=force_y,
     )
 
 
-def viscous_work(step: AcceptedStep, mechanics: BlockMechanics) -> float:
-    """Kelvin-Voigt dissipation of a step, S:(E - E_n) [mJ/mm]."""
-    viscosity, elements = step.problem.past.viscosity, step.evaluation.elements
-    if viscosity is None or elements is None:
-        return 0.0
-    S11, S22, S12 = viscosity.stress(elements.kinematics)
-    density = (S11**2 + S22**2 + 2.0 * S12**2) / viscosity.rate
-    return float(np.sum(mechanics.elements.weights * density))
+class EnergyAuditor:
+    """Audits every accepted step of a run.
+
+    Parameters
+    ----------
+    mesh : BlockMesh
+        Reference mesh.
+    start_weight : float
+        See `audited`.
+    """
+
+    def __init__(self, mesh: BlockMesh, start_weight: float) -> None:
+        self.mesh, self.start_weight = mesh, start_weight
+        self.audit = EnergyAudit()
+
+    def see(self, moment: Moment) -> None:
+        """Add a step."""
+        self.audit = audited(
+            self.audit, moment.step, self.mesh, snaps=moment.snaps, start_weight=self.start_weight
+        )

@@ -29,11 +29,12 @@ from fem import newton
 from fem.case.sections import MOST_PASSES
 from fem.heat.model import HeatModel
 from fem.heat.state import HeatLoad, HeatState
+from fem.mechanics.account import StepEnergies
 from fem.mechanics.regularisation import SnapDamping
+from fem.mechanics.rigid import RigidMechanics, RigidProblem
 from fem.mechanics.state import MechanicalState
 from fem.mechanics.step import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
-from fem.stepping.programme import Target
-from materials.material import StepEnd
+from fem.stepping.phases import Target
 from materials.units import W_PER_M2_K
 
 FloatArray = NDArray[np.float64]
@@ -135,8 +136,6 @@ class AcceptedStep:
     lag_error : float
         Relative change of the friction force with the coefficient at the pressures, slip
         velocities and temperatures of the end of the step [-].
-    rubber : StepEnd
-        What the rubber is left with.
     power : (m,) float array
         Frictional power of the candidates, mean over the step [mJ/s].
     kappa : (m,) float array
@@ -147,22 +146,24 @@ class AcceptedStep:
         Friction work of the block on itself in the step [mJ/mm].
     penetration : float
         Largest penetration of the block into itself, relative to the local element size [-].
+    energies : StepEnergies
+        Energies of the block.
     """
 
     before: CoupledState
     after: CoupledState
     target: Target
     evaluation: StepEvaluation
-    problem: StepProblem
+    problem: StepProblem | RigidProblem
     iterations: int
     hardest_pass: int
     lag_error: float
-    rubber: StepEnd
     power: FloatArray
     kappa: FloatArray
     capped: NDArray[np.bool_]
-    self_friction: float = 0.0
-    penetration: float = 0.0
+    self_friction: float
+    penetration: float
+    energies: StepEnergies
 
     @property
     def solution(self) -> Iterate:
@@ -208,13 +209,16 @@ class SelfContact:
     reach: float
 
 
+Problem = StepProblem | RigidProblem
+
+
 class CoupledModel:
     """Mechanics and heat of one block, advanced step by step.
 
     Parameters
     ----------
-    mechanics : BlockMechanics
-        Mechanical equations.
+    mechanics : BlockMechanics or RigidMechanics
+        Mechanics of the block.
     heat : HeatModel
         Heat of block and road.
     laws : ContactLaws
@@ -238,7 +242,7 @@ class CoupledModel:
 
     def __init__(
         self,
-        mechanics: BlockMechanics,
+        mechanics: BlockMechanics | RigidMechanics,
         heat: HeatModel,
         laws: ContactLaws,
         *,
@@ -298,8 +302,9 @@ class CoupledModel:
             damping=damping,
             pairs=pairs,
             T_C=state.heat.T,
+            raised=target.raised,
         )
-        problem = self.mechanics.step(state.mechanics, load)
+        problem: Problem = self.mechanics.step(state.mechanics, load)
         start = problem.start() if guess is None else guess.solution
         iterations = hardest = 0
         self.mechanics.solver.forget()
@@ -339,7 +344,7 @@ class CoupledModel:
 
     def _pairs(self, state: CoupledState, u: FloatArray) -> Pairs | None:
         """Pairs of self-contact between the accepted state and displacements `u`."""
-        if self.self_contact is None:
+        if self.self_contact is None or isinstance(self.mechanics, RigidMechanics):
             return None
         mechanics, settings = self.mechanics, self.self_contact
         shear = state.mechanics.self_shear
@@ -353,14 +358,14 @@ class CoupledModel:
     def _followed(self, state: CoupledState, pairs: Pairs | None, u: FloatArray) -> Pairs | None:
         """Pairs to go on with at displacements `u`; the same object if they still hold."""
         found = self._pairs(state, u)
-        if found is None or pairs is None:
+        if found is None or pairs is None or isinstance(self.mechanics, RigidMechanics):
             return pairs
         return followed(pairs, found, self.mechanics.mesh.points + u, self.mechanics.boundary)
 
     def _contact(
         self,
         state: CoupledState,
-        problem: StepProblem,
+        problem: Problem,
         result: newton.NewtonResult[Iterate, StepEvaluation],
     ) -> RoadContact:
         """Contact quantities of a converged iterate of a step from `state`."""
@@ -391,7 +396,7 @@ class CoupledModel:
         self,
         state: CoupledState,
         target: Target,
-        problem: StepProblem,
+        problem: Problem,
         result: newton.NewtonResult[Iterate, StepEvaluation],
         contact: RoadContact,
         *,
@@ -400,7 +405,7 @@ class CoupledModel:
         penetration: float,
     ) -> AcceptedStep:
         x = result.x
-        power = friction_power(state.contact, contact)
+        power = friction_power(state.contact, contact, self.mechanics.start_weight)
         # A node that has just opened made its heat under the pressure it had.
         pressure = np.where(contact.status.active, contact.pressure, state.contact.pressure)
         mean = state.contact.mean_pressure or self.mean_pressure
@@ -410,7 +415,8 @@ class CoupledModel:
         rubber = problem.rubber_end(result.evaluation)
         heat = self._heat(
             state, target, x.u, contact, kappa * power,
-            surface=(nodes, work / target.dt), bulk=self._bulk_power(rubber, target.dt),
+            surface=(nodes, work / target.dt),
+            bulk=self.mechanics.bulk_power(rubber, target.dt) if self.rubber_heats else None,
         )  # fmt: skip
         self_shear = self._self_shear(problem, result.evaluation)
         mechanics = problem.end(x, rubber, self_shear)
@@ -422,13 +428,16 @@ class CoupledModel:
             before=state, after=after, target=target, evaluation=result.evaluation,
             problem=problem, iterations=iterations, hardest_pass=hardest,
             lag_error=lag_error(contact, after.mu),
-            rubber=rubber, power=power, kappa=kappa,
+            power=power, kappa=kappa,
             capped=uncapped > self.laws.partition.cap, self_friction=float(work.sum()),
             penetration=penetration,
+            energies=self.mechanics.energies(
+                result.evaluation, mechanics.velocity, problem.past, rubber
+            ),
         )  # fmt: skip
 
     def _self_friction(
-        self, problem: StepProblem, evaluation: StepEvaluation
+        self, problem: Problem, evaluation: StepEvaluation
     ) -> tuple[IntArray, FloatArray]:
         """Nodes and friction work of self-contact [mJ/mm]; all of it becomes heat in the rubber."""
         pairs, forces = problem.load.pairs, evaluation.pairs
@@ -436,24 +445,20 @@ class CoupledModel:
             return np.empty(0, dtype=np.int64), np.empty(0)
         return heat_sources(pairs, forces, dissipation(pairs, forces))
 
-    def _bulk_power(self, rubber: StepEnd, dt: float) -> FloatArray | None:
-        """Heat that the rubber's own viscosity makes in the block, by node [mJ/s]."""
-        if rubber.viscous is None or not self.rubber_heats:
-            return None
-        return self.mechanics.elements.nodal_integral(rubber.viscous) / dt
-
-    def _penetration(self, problem: StepProblem, u: FloatArray) -> float:
+    def _penetration(self, problem: Problem, u: FloatArray) -> float:
         """Largest penetration relative to the local element size, of pairs and of others [-]."""
+        if isinstance(self.mechanics, RigidMechanics):
+            return 0.0
         x, boundary = self.mechanics.mesh.points + u, self.mechanics.boundary
         depth = crossing_depth(x[boundary.nodes], boundary.size, boundary.joined)
         if problem.load.pairs is None:
             return depth
         return max(depth, pair_penetration(problem.load.pairs, x, boundary))
 
-    def _self_shear(self, problem: StepProblem, evaluation: StepEvaluation) -> FloatArray | None:
+    def _self_shear(self, problem: Problem, evaluation: StepEvaluation) -> FloatArray | None:
         """Tangential forces of self-contact by boundary node."""
         pairs, forces = problem.load.pairs, evaluation.pairs
-        if pairs is None or forces is None:
+        if pairs is None or forces is None or isinstance(self.mechanics, RigidMechanics):
             return None
         shear = np.zeros(self.mechanics.boundary.nodes.size)
         np.add.at(shear, pairs.place, forces.shear)
@@ -477,14 +482,18 @@ class CoupledModel:
         return self.heat.advance(state.heat, load, state.position)
 
 
-def friction_power(before: RoadContact, after: RoadContact) -> FloatArray:
+def friction_power(
+    before: RoadContact, after: RoadContact, start_weight: float = 0.5
+) -> FloatArray:
     """Frictional power of the candidates, mean over a step, (m,) [mJ/s].
 
-    The shear forces at both ends of the step, half each, times the slip in it: the trapezoidal
-    rule, by which the work of the platen is audited too. A node that closes or opens in the step
+    The shear forces at both ends of the step times the slip in it, half each: the trapezoidal
+    rule, by which the work of the platen is audited too (those of a rigid block jump, and their
+    `start_weight` is 0). A node that closes or opens in the step
     moves with its force only for a part of it, which this counts as half.
     """
-    return np.asarray(-0.5 * (before.shear + after.shear) * after.slip_velocity)
+    shear = start_weight * before.shear + (1.0 - start_weight) * after.shear
+    return np.asarray(-shear * after.slip_velocity)
 
 
 def lag_error(contact: RoadContact, mu_next: FloatArray) -> float:

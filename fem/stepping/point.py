@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from fem.case import Case
-from fem.heat import HeatState
 from fem.results import BottomHistory, Snapshot
 from fem.stepping.audit import EnergyAudit
 from fem.stepping.coupled_step import CoupledState
@@ -19,16 +17,16 @@ from materials.arrays import AnyArray
 
 @dataclass(frozen=True, kw_only=True)
 class RunPoint:
-    """A point between two accepted steps of a deformable run.
+    """A point between two accepted steps.
 
     Attributes
     ----------
     phase : int
         Number of the phase; -1 before the first one.
-    at : float
-        Coordinate of the phase.
     plan : StepPlan
-        How the next step is to be tried.
+        Where in the phase, and how the next step is to be tried.
+    distance : float
+        Distance slid over the road in the phases before [mm].
     state : CoupledState
         Accepted state.
     audit : EnergyAudit
@@ -42,8 +40,8 @@ class RunPoint:
     """
 
     phase: int
-    at: float
     plan: StepPlan
+    distance: float
     state: CoupledState
     audit: EnergyAudit
     iterations: int
@@ -52,36 +50,6 @@ class RunPoint:
     rows: int
     snapshots: int
     log: int
-
-
-@dataclass(frozen=True, kw_only=True)
-class RigidPoint:
-    """A point between two steps of a rigid run.
-
-    Attributes
-    ----------
-    steps : int
-        Steps made, which is also the number of history rows.
-    heat : HeatState
-        Heat of block and road.
-    time, distance, position : float
-        Time [s], sliding distance and signed displacement of the platen [mm].
-    work, created, capped : float
-        Friction work, that of steps in which it was negative, and the part of it whose heat
-        partition was capped [mJ/mm].
-    snapshots : int
-        How many snapshots there were.
-    """
-
-    steps: int
-    heat: HeatState
-    time: float
-    distance: float
-    position: float
-    work: float
-    created: float
-    capped: float
-    snapshots: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,26 +86,12 @@ class Records:
 
 @dataclass(frozen=True, kw_only=True)
 class RunRecord:
-    """What the checkpoint of a deformable run holds."""
+    """What the checkpoint holds."""
 
     point: RunPoint
-    records: Records
-
-
-@dataclass(frozen=True, kw_only=True)
-class RigidRecord:
-    """What the checkpoint of a rigid run holds."""
-
-    point: RigidPoint
     records: Records
 
 
 def columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, AnyArray]:
     """History rows, which have the same keys, as columns."""
     return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
-
-
-def snapshots_due(case: Case, after: float = -np.inf) -> list[float]:
-    """Sliding distances behind `after` at which a snapshot is to be taken [mm]."""
-    distances = np.linspace(0.0, case.loading.distance_mm, case.output.snapshots + 1)[1:]
-    return [float(distance) for distance in distances if distance > after]

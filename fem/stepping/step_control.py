@@ -18,11 +18,17 @@ class StepPlan:
         What an earlier failure bounds the next lengths by.
     help : float
         Level of the help it gets (damping); 0 for none.
+    at : float
+        Where the step starts.
+    failed : bool
+        Whether it has failed before, with less help or longer.
     """
 
     step: float
     bound: float = inf
     help: float = 0.0
+    at: float = 0.0
+    failed: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,10 +73,24 @@ class StepController:
     fading: float = 0.85
     no_help: float = 0.01
 
+    def trial(self, plan: StepPlan, longest: float, end: float) -> tuple[float, float]:
+        """Length and end of the next step; the last one lands on the end exactly."""
+        length = landed(plan.at, min(plan.step, longest), end)
+        return length, end if length == end - plan.at else plan.at + length
+
     def accepted(
-        self, plan: StepPlan, length: float, iterations: int, help_left: float | None = None
+        self,
+        plan: StepPlan,
+        length: float,
+        iterations: int,
+        help_left: float | None = None,
+        *,
+        at: float = 0.0,
     ) -> StepPlan:
-        """Plan after an accepted step of this length; help fades unless it is said what is left."""
+        """Plan from `at` on, after an accepted step of this length.
+
+        Help fades unless it is said what is left.
+        """
         step, bound = length, plan.bound * self.recovery
         level = plan.help * self.fading if help_left is None else help_left
         if iterations <= self.easy:
@@ -78,14 +98,17 @@ class StepController:
         elif iterations > self.hard:
             step *= self.shrink
         step = min(max(min(step, bound), self.step_min), self.step_max)
-        return StepPlan(step=step, bound=bound, help=level if level >= self.no_help else 0.0)
+        level = level if level >= self.no_help else 0.0
+        return StepPlan(step=step, bound=bound, help=level, at=at)
 
     def rejected(self, plan: StepPlan, length: float) -> StepPlan:
         """Plan after a failed step of this length: more help, or more and a shorter step."""
         if plan.help < self.enough_help:
-            return replace(plan, step=length, help=max(self.first_help, self.more_help * plan.help))
+            level = max(self.first_help, self.more_help * plan.help)
+            return replace(plan, step=length, help=level, failed=True)
         level = min(self.more_help * plan.help, self.most_help)
-        return StepPlan(step=length * self.cut, bound=self.caution * length, help=level)
+        shorter, bound = length * self.cut, self.caution * length
+        return replace(plan, step=shorter, bound=bound, help=level, failed=True)
 
     def exhausted(self, plan: StepPlan) -> bool:
         """Whether a step is too small to go on with."""

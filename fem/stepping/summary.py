@@ -22,7 +22,7 @@ def largest(history: pd.DataFrame, column: str) -> float:
     return float(history[column].max()) if len(history) else float("nan")
 
 
-def sliding_means(history: pd.DataFrame, velocity: float) -> dict[str, float]:
+def sliding_means(history: pd.DataFrame) -> dict[str, float]:
     """Means over the distance slid at full speed: force, coefficient, contact length, pressure."""
     columns = (
         "friction_force_N_per_mm",
@@ -33,7 +33,8 @@ def sliding_means(history: pd.DataFrame, velocity: float) -> dict[str, float]:
     if history.empty:
         return dict.fromkeys(columns, float("nan"))
     length = history["sliding_distance_mm"].diff().fillna(history["sliding_distance_mm"])
-    full = np.isclose(history["velocity_mm_per_s"], velocity, rtol=1e-6) & (length > 0.0)
+    speed = history["velocity_mm_per_s"].abs()
+    full = np.isclose(speed, speed.max(), rtol=1e-6) & (length > 0.0)
     chosen, weight = history[full], length[full]
     if chosen.empty:
         return {c: float(history[c].iloc[-1]) for c in columns}

@@ -121,7 +121,7 @@ def run(model, phases, steps, start=None, first=0):
             if len(states) >= first:
                 step = model.advance(state, phase.target(at, stop))
                 assert isinstance(step, AcceptedStep), step
-                audit, state = audited(audit, step, model.mechanics), step.after
+                audit, state = audited(audit, step, model.mechanics.mesh), step.after
             states.append(state)
     return states, audit
 

@@ -87,7 +87,7 @@ def test_one_of_another_program_version_is_refused(path, monkeypatch):
 
 def test_one_of_another_format_is_refused(path, monkeypatch):
     monkeypatch.setattr(fem.results.checkpoint, "FORMAT", 9)
-    assert refusal(path).startswith("format: found 3, expected 9")
+    assert refusal(path).startswith("format: found 4, expected 9")
 
 
 def test_one_with_other_content_is_refused(path):

@@ -185,18 +185,16 @@ def test_an_interrupted_run_leaves_a_checkpoint_whatever_the_interval(tmp_path):
 def test_an_interrupt_within_a_step_goes_back_to_the_last_finished_one(tmp_path, monkeypatch):
     case, path = CASES["small"], tmp_path / CHECKPOINT_FILE
     reference = simulate(case)
-    from fem.stepping.recorder import Recorder
+    from fem.stepping.observers.history import HistoryRecorder
 
-    record = Recorder.record
+    see = HistoryRecorder.see
 
-    def interrupted(self, *arguments):
-        record(self, *arguments)
+    def interrupted(self, moment):
+        see(self, moment)
         if len(self.rows) == 6:
             raise KeyboardInterrupt
 
-        return self.rows[-1]
-
-    monkeypatch.setattr(Recorder, "record", interrupted)
+    monkeypatch.setattr(HistoryRecorder, "see", interrupted)
     assert simulate(case, checkpoint=path).summary["status"] == "interrupted"
     monkeypatch.undo()
     resumed = simulate(case, checkpoint=path, resume=True)

@@ -55,7 +55,7 @@ def pressing_run(steps, *, level=0.0, snaps=False, **solver):
     for k in range(steps):
         step = model.advance(state, phase.target(k / steps, (k + 1) / steps), level)
         assert isinstance(step, AcceptedStep)
-        audit, state = audited(audit, step, model.mechanics, snaps=snaps), step.after
+        audit, state = audited(audit, step, model.mechanics.mesh, snaps=snaps), step.after
     return audit
 
 

@@ -82,7 +82,7 @@ def test_forces_follow_from_pressure_and_length(short_run):
 def test_the_surface_table_opposes_the_motion_with_mu_p(short_run):
     surface = short_run.surface
     assert (surface["shear_N_per_mm2"] < 0.0).all()
-    assert (surface["slip_velocity_mm_per_s"] == 300.0).all()
+    np.testing.assert_allclose(surface["slip_velocity_mm_per_s"], 300.0, rtol=1e-12)
     ratio = -surface["shear_N_per_mm2"] / surface["pressure_N_per_mm2"]
     mean = np.trapezoid(ratio, surface["X_mm"]) / 20.0
     assert mean == pytest.approx(short_run.history["friction_coefficient"].iloc[-1], rel=1e-3)
@@ -105,7 +105,8 @@ def test_snapshots_are_taken_at_equal_distances_and_at_the_end(short_run):
 
 
 def test_capped_heat_share_is_one_below_the_cap_pressure():
-    assert simulate(a_case(pressure=0.15, distance=2.0)).summary["capped_heat_share"] == 1.0
+    capped = simulate(a_case(pressure=0.15, distance=2.0)).summary["capped_heat_share"]
+    assert capped == pytest.approx(1.0, rel=1e-12)
     assert simulate(a_case(pressure=0.3, distance=2.0)).summary["capped_heat_share"] == 0.0
 
 
@@ -117,7 +118,7 @@ def test_a_rigid_run_to_the_left_is_the_mirror_image(short_run):
     np.testing.assert_allclose(
         left.surface["shear_N_per_mm2"], -short_run.surface["shear_N_per_mm2"], rtol=1e-12
     )
-    assert (left.history["velocity_mm_per_s"] == -300.0).all()
+    np.testing.assert_allclose(left.history["velocity_mm_per_s"], -300.0, rtol=1e-12)
 
 
 def test_progress_is_reported_after_each_step():
@@ -131,13 +132,12 @@ def test_progress_is_reported_after_each_step():
 @pytest.mark.parametrize("after", [0, 3])
 def test_an_interrupted_run_keeps_what_was_accepted(after, tmp_path, monkeypatch):
     if after == 0:
-        import fem.stepping.rigid_run
+        from fem.stepping.coupled_step import CoupledModel
 
         def interrupted(*_):
             raise KeyboardInterrupt
-            yield
 
-        monkeypatch.setattr(fem.stepping.rigid_run, "slide_rigid_block", interrupted)
+        monkeypatch.setattr(CoupledModel, "advance", interrupted)
     seen = []
 
     def progress(report):

@@ -1,4 +1,4 @@
-"""Tables of a run from its accepted steps: history rows, bottom surface, field snapshots."""
+"""The history of a run, a row per accepted step, and the table of its boundary."""
 
 from __future__ import annotations
 
@@ -6,39 +6,36 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fem.case.case import Case
-from fem.mechanics.elements import Past
+from fem.mechanics.account import Strains
 from fem.mechanics.step import platen_displacement
 from fem.mesh.block import BlockMesh
-from fem.results.bottom_history import BottomHistory
 from fem.results.boundary import BoundaryContact, boundary_table
 from fem.results.fitted_window import contact_columns, rubber_columns
-from fem.results.snapshot import BlockGeometry, Snapshot
 from fem.results.surface_profile import excess_area, interior_peak
-from fem.stepping.audit import EnergyAudit
+from fem.stepping.audit import EnergyAudit, EnergyAuditor
 from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
+from fem.stepping.moment import Moment
 from materials.arrays import FloatArray
 
 
-class Recorder:
-    """Collects rows and snapshots; sees accepted steps only.
+class HistoryRecorder:
+    """A row per accepted step, and the table of the boundary.
 
     Parameters
     ----------
     case : Case
-        For the ambient temperature and the number of snapshots.
+        For the ambient temperature and the windows of fitted laws.
     model : CoupledModel
-        For mesh and elements.
+        For mesh and strains.
+    audit : EnergyAuditor
+        Sees each step before.
     """
 
-    def __init__(self, case: Case, model: CoupledModel) -> None:
-        self.case, self.model = case, model
+    def __init__(self, case: Case, model: CoupledModel, audit: EnergyAuditor) -> None:
+        self.case, self.model, self.audit = case, model, audit
         self.rows: list[dict[str, Any]] = []
-        self.snapshots: list[Snapshot] = []
-        self.kinds: list[NDArray[Any]] = []
-        self.pressures: list[NDArray[Any]] = []
         self.smallest_J = np.inf
 
     @property
@@ -46,36 +43,27 @@ class Recorder:
         """Reference mesh."""
         return self.model.mechanics.mesh
 
-    @property
-    def geometry(self) -> BlockGeometry:
-        """Mesh for output."""
-        return BlockGeometry(points=self.mesh.points, cells=self.mesh.cells)
-
-    def record(self, step: AcceptedStep, audit: EnergyAudit) -> dict[str, Any]:
-        """Append the row of an accepted step and return it."""
-        assert step.evaluation.elements is not None
-        self.smallest_J = min(self.smallest_J, float(step.evaluation.elements.kinematics.J.min()))
+    def see(self, moment: Moment) -> None:
+        """Append the row of an accepted step."""
+        step = moment.step
+        strains = self.model.mechanics.strains(step.evaluation)
+        smallest_J, status = float(strains.J.min()), step.after.contact.status
+        self.smallest_J = min(self.smallest_J, smallest_J)
         row = self._contact_columns(step)
+        row |= {"sliding_distance_mm": moment.distance}
         row |= temperature_columns(self.mesh, step.after.heat.T, self.case.heat.ambient_C)
         row |= {"newton_iterations": step.iterations}
-        row |= energy_columns(audit, step.after)
+        row |= energy_columns(self.audit.audit, step.after)
         row |= {"friction_lag_error": step.lag_error}
-        row |= {"min_J": float(step.evaluation.elements.kinematics.J.min())}
+        row |= {"min_J": smallest_J}
         row |= {"self_contact_penetration": step.penetration}
-        status = step.after.contact.status
         row |= {"sticking_nodes": int(status.sticking.sum())}
         row |= {"slipping_nodes": int(status.slipping.sum())}
-        row |= self._window_columns(step)
-        self.rows.append(row)
-        self._record_bottom(step)
-        return row
+        self.rows.append(row | self._window_columns(step, strains))
 
-    def _window_columns(self, step: AcceptedStep) -> dict[str, float]:
+    def _window_columns(self, step: AcceptedStep, strains: Strains) -> dict[str, float]:
         """Shares outside the ranges that the laws of the case were fitted to."""
         contact, active = step.after.contact, step.after.contact.status.active
-        elements = step.evaluation.elements
-        assert elements is not None
-        kin = elements.kinematics
         return contact_columns(
             self.case,
             p=contact.pressure[active],
@@ -83,7 +71,7 @@ class Recorder:
             T=step.after.heat.T[self.model.mechanics.candidates][active],
             length=contact.length[active],
             slipping=contact.status.slipping[active],
-        ) | rubber_columns(self.case, kin.I1, kin.J, self.model.mechanics.elements.weights)
+        ) | rubber_columns(self.case, strains.I1, strains.J, strains.weights)
 
     def _contact_columns(self, step: AcceptedStep) -> dict[str, Any]:
         contact, direction = step.after.contact, self.mesh.direction
@@ -91,7 +79,7 @@ class Recorder:
         friction = direction * contact.friction_force
         return {
             "time_s": step.after.time,
-            "sliding_distance_mm": direction * step.after.position,
+            "sliding_distance_mm": 0.0,
             "velocity_mm_per_s": step.target.sweep / step.target.dt,
             "normal_force_N_per_mm": normal,
             "friction_force_N_per_mm": friction,
@@ -102,30 +90,6 @@ class Recorder:
             "mean_slip_velocity_mm_per_s": direction * contact.mean_slip_velocity,
             "platen_displacement_mm": platen_displacement(self.mesh, step.after.mechanics.u),
         }
-
-    def snapshot(self, state: CoupledState, distance: float) -> None:
-        """Append the fields of an accepted state."""
-        elements, mechanics = self.model.mechanics.elements, state.mechanics
-        kinematics = elements.kinematics(mechanics.u)
-        rubber = self.model.mechanics.material(mechanics, state.heat.T)
-        softening = rubber.end(kinematics).softening
-        road = self.model.heat.road_field(state.heat, state.position)
-        self.snapshots.append(
-            Snapshot(
-                time_s=state.time,
-                sliding_distance_mm=distance,
-                displacement=mechanics.u,
-                temperature=state.heat.T,
-                cauchy_stress=elements.cauchy(kinematics, Past(material=rubber)),
-                stretch=elements.largest_stretch(kinematics),
-                pressure=mechanics.p,
-                road_points=road.points,
-                road_cells=road.cells,
-                road_temperature=road.temperature,
-                softening=None if softening is None else elements.mean(softening),
-                viscous_dissipation=mechanics.lost,
-            )
-        )
 
     def boundary(self, state: CoupledState) -> pd.DataFrame:
         """Table of the free boundary of an accepted state."""
@@ -141,24 +105,6 @@ class Recorder:
                 slip_velocity=contact.slip_velocity,
             ),
         )  # fmt: skip
-
-    def bottom(self, rows: int | None = None) -> BottomHistory:
-        """Stick, slip and pressure along the bottom in the first rows of the history."""
-        X = self.mesh.from_trailing(self.mesh.bottom)
-        return BottomHistory(
-            X_mm=X,
-            kind=np.array(self.kinds[:rows], dtype=np.int8).reshape(-1, X.size),
-            pressure=np.array(self.pressures[:rows], dtype=np.float32).reshape(-1, X.size),
-        )
-
-    def go_on_from(self, bottom: BottomHistory) -> None:
-        """Take over what was recorded along the bottom before an interruption."""
-        self.kinds, self.pressures = list(bottom.kind), list(bottom.pressure)
-
-    def _record_bottom(self, step: AcceptedStep) -> None:
-        contact, bottom = step.after.contact, self.mesh.on_bottom
-        self.kinds.append(contact.status.kind[bottom].astype(np.int8))
-        self.pressures.append(contact.pressure[bottom].astype(np.float32))
 
 
 def temperature_columns(mesh: BlockMesh, T_C: FloatArray, ambient_C: float) -> dict[str, float]:

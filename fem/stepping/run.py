@@ -1,0 +1,193 @@
+"""The time loop: from phase to phase and from step to step, whatever is done to whichever block.
+
+After each accepted step the observers look at it in one fixed order: energy audit, history, bottom,
+snapshots; then the run stands at its next point, which a checkpoint may keep and progress reports.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+from fem.case.case import Case
+from fem.mechanics.regularisation import damping_lines
+from fem.results.checkpoint import Checkpoint
+from fem.results.outcome import OK, Outcome, failed, stoppable
+from fem.stepping.audit import EnergyAuditor
+from fem.stepping.coupled_step import AcceptedStep, CoupledModel, RejectedStep
+from fem.stepping.model_parts import Progress
+from fem.stepping.moment import Moment, Observer
+from fem.stepping.observers.bottom import BottomRecorder
+from fem.stepping.observers.fields import SnapshotTaker
+from fem.stepping.observers.history import HistoryRecorder
+from fem.stepping.phases import Phase
+from fem.stepping.point import Records, RunPoint, RunRecord, columns
+from fem.stepping.programme import programme
+from fem.stepping.relaxation import RELAXED_ONSET, relaxed
+from fem.stepping.step_control import StepController, StepPlan
+
+
+class Run:
+    """A run between its steps: the accepted state, what observers saw of it, and counts.
+
+    Parameters
+    ----------
+    case : Case
+        The resolved case.
+    model : CoupledModel
+        Its block and road.
+    progress : callable, optional
+        Called with a `Progress` after each accepted step.
+    checkpoint : Checkpoint, optional
+        Where to keep what is needed to go on after an interruption.
+    """
+
+    def __init__(
+        self,
+        case: Case,
+        model: CoupledModel,
+        progress: Callable[[Progress], None] | None = None,
+        checkpoint: Checkpoint | None = None,
+    ) -> None:
+        self.case, self.model = case, model
+        self.progress, self.checkpoint = progress, checkpoint
+        self.started, self.solver_seconds_before = time.perf_counter(), 0.0
+        self.phases = programme(case)
+        mechanics, mesh = model.mechanics, model.mechanics.mesh
+        self.auditor = EnergyAuditor(mesh, mechanics.start_weight)
+        self.history = HistoryRecorder(case, model, self.auditor)
+        self.bottom = BottomRecorder(mesh)
+        self.fields = SnapshotTaker(case, model, self.phases)
+        self.observers: tuple[Observer, ...] = (
+            self.auditor, self.history, self.bottom, self.fields,
+        )  # fmt: skip
+        self.state = model.initial_state()
+        self.iterations = self.rejected = 0
+        rigid = "" if mechanics.deforms else "rigid "
+        size = f"{case.block.length_mm:g} x {case.block.height_mm:g} mm block"
+        self.log = [f"{rigid}{size}, {len(mesh.cells)} elements", case.friction.described()]
+        if mechanics.deforms:
+            self.log += damping_lines(case)
+        self.point = self._point(-1, StepPlan(step=0.0), 0.0)
+
+    @property
+    def wall(self) -> float:
+        """Time spent on the run, that before an interruption included [s]."""
+        return time.perf_counter() - self.started
+
+    @property
+    def solver_seconds(self) -> float:
+        """Time spent in sparse factorisations and solves, of mechanics and heat [s]."""
+        mechanics, heat = self.model.mechanics.solver, self.model.heat.block.stopwatch
+        return self.solver_seconds_before + mechanics.seconds + heat.seconds
+
+    @property
+    def distance(self) -> float:
+        """Distance slid up to the last accepted step [mm]."""
+        rows = self.history.rows
+        return float(rows[-1]["sliding_distance_mm"]) if rows else 0.0
+
+    def _point(self, phase: int, plan: StepPlan, distance: float) -> RunPoint:
+        return RunPoint(
+            phase=phase, plan=plan, distance=distance, state=self.state, audit=self.auditor.audit,
+            iterations=self.iterations, rejected=self.rejected, smallest_J=self.history.smallest_J,
+            rows=len(self.history.rows), snapshots=len(self.fields.snapshots), log=len(self.log),
+        )  # fmt: skip
+
+    def kept(self) -> RunRecord:
+        """What a checkpoint holds: the last point, and the records up to it."""
+        point = self.point
+        records = Records(
+            history=columns(self.history.rows[: point.rows]),
+            snapshots=self.fields.snapshots[: point.snapshots], log=self.log[: point.log],
+            wall_s=self.wall, solver_s=self.solver_seconds, bottom=self.bottom.table(point.rows),
+        )  # fmt: skip
+        return RunRecord(point=point, records=records)
+
+    def go_on_from(self, kept: RunRecord) -> None:
+        """Take over the point and the records of an interrupted run."""
+        point, records = kept.point, kept.records
+        self.point, self.state, self.auditor.audit = point, point.state, point.audit
+        self.iterations, self.rejected = point.iterations, point.rejected
+        self.history.rows, self.history.smallest_J = records.rows, point.smallest_J
+        self.bottom.go_on_from(records.bottom)
+        self.fields.snapshots = records.snapshots
+        self.fields.skip_to(self.distance)
+        self.log = [*records.log, f"resumed after {point.rows} steps, {self.distance:.6g} mm"]
+        self.started -= records.wall_s
+        self.solver_seconds_before = records.solver_s
+
+    def run(self) -> Outcome:
+        """Go through all phases; the outcome says whether the end was reached."""
+
+        def phases() -> Outcome:
+            for number, phase in enumerate(self.phases):
+                if number >= self.point.phase:
+                    outcome = self._phase(number, phase)
+                    if outcome.status != OK:
+                        return outcome
+            return Outcome(status=OK)
+
+        return stoppable(phases)
+
+    def _phase(self, number: int, phase: Phase) -> Outcome:
+        control = StepController(step_max=phase.step_max, step_min=phase.step_min)
+        if self.model.damping is None:  # steps that fail can only be cut
+            control = replace(control, enough_help=0.0)
+        plan, before = StepPlan(step=phase.step_initial), self.distance
+        if number == self.point.phase:
+            plan, before = self.point.plan, self.point.distance
+        while plan.at < phase.end:
+            length, stop = control.trial(plan, phase.longest(plan.at), phase.end)
+            attempt, left = self._attempt(phase, plan, stop)
+            self.iterations += attempt.iterations
+            if isinstance(attempt, AcceptedStep):
+                self._accept(
+                    Moment(
+                        step=attempt, phase=phase, number=number, snaps=plan.failed,
+                        distance=before + phase.slid(stop), ends=stop == phase.end,
+                    )
+                )  # fmt: skip
+                plan = control.accepted(plan, length, attempt.hardest_pass, left, at=stop)
+                self.point = self._point(number, plan, before)
+                self._report()
+                continue
+            self.rejected += 1
+            self.log.append(
+                f"{phase.name} {plan.at:.6g}: step {length:.3g} rejected with damping "
+                f"{plan.help:.3g}, {attempt.failure.value}"
+            )
+            plan = control.rejected(plan, length)
+            if control.exhausted(plan):
+                where = f"{phase.name} {plan.at:.4g}{phase.unit}"
+                return failed(attempt.failure, attempt.detail, where)
+        return Outcome(status=OK)
+
+    def _attempt(
+        self, phase: Phase, plan: StepPlan, stop: float
+    ) -> tuple[AcceptedStep | RejectedStep, float | None]:
+        """A planned step, relaxed at the onset, and the level of damping that this left."""
+        attempt = self.model.advance(self.state, phase.target(plan.at, stop), plan.help)
+        onset = phase.onset and plan.at < RELAXED_ONSET
+        if onset and plan.help > 0.0 and isinstance(attempt, AcceptedStep):
+            return relaxed(self.model, attempt, plan.help)
+        return attempt, None
+
+    def _accept(self, moment: Moment) -> None:
+        self.state = moment.step.after
+        for observer in self.observers:
+            observer.see(moment)
+
+    def _report(self) -> None:
+        """Keep a checkpoint and tell the user; here an interruption finds a finished step."""
+        if self.checkpoint is not None:
+            self.checkpoint.keep(self.kept)
+        if self.progress is not None:
+            self.progress(
+                Progress(
+                    sliding_distance_mm=self.distance,
+                    T_max_C=self.history.rows[-1]["T_max_C"],
+                    newton_iterations=self.iterations,
+                )
+            )
