@@ -30,7 +30,8 @@ from calibration.fitting.progress import stage
 from materials.arrays import FloatArray
 
 NODES_PER_DECADE = 12
-_MOST_BRANCHES = 12  # that the search begins with
+_MOST_BRANCHES = 24  # that the search begins with
+_HOPELESS = 100.0  # a criterion above the lowest by that much only rises with fewer branches
 _LEAST_MODULUS = 1e-6  # of the largest on the grid; smaller ones are none
 
 
@@ -115,6 +116,11 @@ def memory_problem(curve: MemoryCurve, count: int, *, logarithmic: bool = False)
         by_slow = curve.slow_slopes(slow) + np.outer(response @ g, G_slopes)
         return np.column_stack([by_slow, G * response, G * slope * (g * scale)])
 
+    def in_order(theta: FloatArray) -> FloatArray:
+        g, tau = theta[k : k + count], theta[k + count : k + 2 * count]
+        order = np.argsort(tau)
+        return np.concatenate([theta[:k], g[order], tau[order], theta[k + 2 * count :]])
+
     limits = np.log(curve.tau_s) if logarithmic else np.asarray(curve.tau_s)
     return Problem(
         names=(*curve.names, *branch_names(count)),
@@ -124,6 +130,7 @@ def memory_problem(curve: MemoryCurve, count: int, *, logarithmic: bool = False)
         weights=curve.weights,
         lower=np.concatenate([curve.lower, np.zeros(count), np.full(count, limits[0])]),
         upper=np.concatenate([curve.upper, np.full(count, np.inf), np.full(count, limits[1])]),
+        canonical=in_order,
     )
 
 
@@ -136,13 +143,12 @@ class Candidate:
 
     count: int
     theta: FloatArray
-    cost: float
     rmse: float
-    bic: float = float("nan")
+    bic: float
 
 
 def candidates(curve: MemoryCurve, most: int | None = None) -> tuple[list[Candidate], float]:
-    """Best parameters by number of branches, down to none, and the share of independent points.
+    """Best parameters by number of branches, down to too few, and the share of independent points.
 
     Parameters
     ----------
@@ -154,27 +160,20 @@ def candidates(curve: MemoryCurve, most: int | None = None) -> tuple[list[Candid
     limit = _MOST_BRANCHES if most is None else most
     while g.size > limit:
         slow, g, log_tau = _one_fewer(curve, slow, g, log_tau)
-    found = []
+    found: list[Candidate] = []
+    independent = 1.0
     while True:
         stage(f"fit with {g.size} branches")
         problem = memory_problem(curve, g.size, logarithmic=True)
         best = minimise(problem, np.concatenate([slow, g, log_tau])[None, :])
         slow, g, log_tau = np.split(best.x, [len(curve.names), len(curve.names) + g.size])
-        order = np.argsort(log_tau)
-        g, log_tau = g[order], log_tau[order]
-        residual = problem.predict(best.x) - curve.observed
-        found.append(
-            Candidate(
-                count=g.size,
-                theta=np.concatenate([slow, g, np.exp(log_tau)]),
-                cost=2.0 * float(best.cost),
-                rmse=float(np.sqrt(np.mean(residual**2))),
-            )
-        )
-        if len(found) == 1:
-            independent = independent_share(problem.residuals(best.x))
-        if g.size == 0:
-            return _judged(found, curve, independent), independent
+        residuals = problem.residuals(best.x)
+        if not found:
+            independent = independent_share(residuals)
+        found.append(_candidate(curve, problem, best.x, g.size, independent))
+        hopeless = found[-1].bic > fewest(found).bic + _HOPELESS
+        if g.size == 0 or (hopeless and most is None):
+            return found, independent
         slow, g, log_tau = _one_fewer(curve, slow, g, log_tau)
 
 
@@ -189,15 +188,23 @@ def independent_share(residuals: FloatArray) -> float:
     return min(1.0, 2.0 * runs / residuals.size)
 
 
-def _judged(found: list[Candidate], curve: MemoryCurve, independent: float) -> list[Candidate]:
+def _candidate(
+    curve: MemoryCurve, problem: Problem, x: FloatArray, count: int, independent: float
+) -> Candidate:
+    """Parameters of a search with their criterion."""
+    assert problem.canonical is not None
+    slow, g, log_tau = np.split(problem.canonical(x), [len(curve.names), len(curve.names) + count])
+    residuals = problem.residuals(x)
     n = max(independent * curve.observed.size, 2.0)
     floor = 1e-24 * float(np.sum(curve.observed**2))
-    judged = []
-    for one in found:
-        free = len(curve.names) + 3 * one.count + 1
-        bic = n * np.log(max(one.cost, floor)) + free * np.log(n)
-        judged.append(Candidate(**{**vars(one), "bic": float(bic)}))
-    return judged
+    free = len(curve.names) + 3 * count + 1
+    squares = max(float(residuals @ residuals), floor)
+    return Candidate(
+        count=count,
+        theta=np.concatenate([slow, g, np.exp(log_tau)]),
+        rmse=float(np.sqrt(np.mean((problem.predict(x) - curve.observed) ** 2))),
+        bic=float(n * np.log(squares) + free * np.log(n)),
+    )
 
 
 def _on_grid(curve: MemoryCurve) -> tuple[FloatArray, FloatArray, FloatArray]:
