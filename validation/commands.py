@@ -9,6 +9,7 @@ import argparse
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,13 @@ _PAPER = "results/figures"
 
 def add_arguments(commands: Any) -> None:
     """Add `figure`, `table`, `claims`, `sensitivity` and `report` to the sub-commands."""
-    for add in (_add_figure, _add_table, _add_claims, _add_sensitivity, _add_report):
-        add(commands)
+    _add_figure(commands)
+    _add_table(commands)
+    text = "Check the paper's statements against the simulation, one by one."
+    _add_study(commands, "claims", "check the paper's claims", text, "ledger and its runs")
+    text = "Vary what the paper leaves open, one parameter at a time."
+    _add_study(commands, "sensitivity", "vary what is left open", text, "table, picture and runs")
+    _add_report(commands)
 
 
 def _add_figure(commands: Any) -> None:
@@ -117,35 +123,17 @@ def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list
     return [int(arguments.number)]
 
 
-def _add_claims(commands: Any) -> None:
-    text = "Check the paper's statements against the simulation, one by one."
-    parser = commands.add_parser("claims", help="check the paper's claims", description=text)
-    _add_folder(parser, "ledger and its runs")
-    parser.set_defaults(command=partial(_in_folder, _claims))
+def _add_study(commands: Any, name: str, words: str, description: str, folder: str) -> None:
+    """A command that writes a table and a text, which it shows."""
+    parser = commands.add_parser(name, help=words, description=description)
+    _add_folder(parser, folder)
+    parser.set_defaults(command=partial(_in_folder, partial(_study, name)))
 
 
-def _claims(arguments: argparse.Namespace) -> int:
-    from validation.claims.write import write_claims
-
-    def make() -> Path:
-        _, text = write_claims(arguments.output)
-        return text
-
-    return DONE if _made(arguments, "claims", make, show=True) else NOT_CONVERGED
-
-
-def _add_sensitivity(commands: Any) -> None:
-    text = "Vary what the paper leaves open, one parameter at a time."
-    parser = commands.add_parser("sensitivity", help="vary what is left open", description=text)
-    _add_folder(parser, "table, picture and runs")
-    parser.set_defaults(command=partial(_in_folder, _sensitivity))
-
-
-def _sensitivity(arguments: argparse.Namespace) -> int:
-    from validation.sensitivity.write import write_sensitivity
-
-    make = partial(write_sensitivity, arguments.output)
-    return DONE if _made(arguments, "sensitivity", make, show=True) else NOT_CONVERGED
+def _study(name: str, arguments: argparse.Namespace) -> int:
+    write = getattr(import_module(f"validation.{name}.write"), f"write_{name}")
+    make = partial(write, arguments.output)
+    return DONE if _made(arguments, name, make, show=True) else NOT_CONVERGED
 
 
 def _made(

@@ -10,8 +10,8 @@ from validation.claims.ledger import ledger_table
 from validation.claims.text import ledger_text
 
 
-def write_claims(directory: str | Path) -> tuple[Path, Path]:
-    """Write ``claims.csv`` and ``claims.txt``; both paths are returned.
+def write_claims(directory: str | Path) -> Path:
+    """Write ``claims.csv`` and ``claims.txt``; the text's path is returned.
 
     Runs of the paper's studies that are missing in ``directory/runs`` are simulated there first.
     """
@@ -20,4 +20,4 @@ def write_claims(directory: str | Path) -> tuple[Path, Path]:
     csv, text = directory / "claims.csv", directory / "claims.txt"
     write_table(csv, table)
     write_text(text, ledger_text(table))
-    return csv, text
+    return text

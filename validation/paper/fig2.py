@@ -10,15 +10,7 @@ from matplotlib.figure import Figure
 from calibration.synthetic import synthetic_dumbbell_cycles
 from fem.files import write_table
 from validation.drawing.style import GREY, PAGE_WIDTH, new_figure, save, styled
-from validation.paper.stress_panels import (
-    SYNTHETIC_NOTE,
-    chosen_cycle,
-    draw_chosen,
-    draw_sets,
-    draw_test,
-    finish,
-    set_table,
-)
+from validation.paper.stress_panels import SYNTHETIC_NOTE, draw_row, marked, set_table
 
 STRAIN, STRESS = (-22.0, 52.0), (-1.2, 1.25)
 
@@ -26,8 +18,7 @@ STRAIN, STRESS = (-22.0, 52.0), (-1.2, 1.25)
 def make(directory: Path) -> Path:
     """Draw figure 2 and write the synthetic test and the curves of the sets beside it."""
     test = synthetic_dumbbell_cycles()
-    marked = test.assign(used=test["cycle"] == chosen_cycle(test))
-    write_table(directory / "fig2_synthetic_test.csv", marked)
+    write_table(directory / "fig2_synthetic_test.csv", marked(test))
     write_table(directory / "fig2.csv", set_table(STRAIN))
     return save(draw(test), directory / "fig2.png")
 
@@ -36,15 +27,9 @@ def make(directory: Path) -> Path:
 def draw(test: pd.DataFrame) -> Figure:
     """Draw the cycles on the left and the parameter sets over the chosen one on the right."""
     figure = new_figure(PAGE_WIDTH, 95.0)
-    cycles, sets = figure.subplots(1, 2)
-    draw_test(cycles, test)
-    cycles.legend(loc="upper left")
-    cycles.set_title("Dumbbell: cycles and the one used")
-    draw_chosen(sets, test)
-    draw_sets(sets, STRAIN)
-    sets.legend(loc="lower right", fontsize=6.5)
-    sets.set_title("Parameter sets of Table 1")
-    for axes in (cycles, sets):
-        finish(axes, strain=STRAIN, stress=STRESS)
+    row = figure.subplots(1, 2)
+    titles = ("Dumbbell: cycles and the one used", "Parameter sets of Table 1")
+    draw_row(row, test, STRAIN, STRESS, titles)
+    row[1].legend(loc="lower right", fontsize=6.5)
     figure.suptitle(SYNTHETIC_NOTE, fontsize=7.5, color=GREY)
     return figure

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -85,7 +87,30 @@ def set_table(strain_percent: tuple[float, float], points: int = 201) -> pd.Data
     return pd.DataFrame(columns)
 
 
-def finish(axes: Axes, *, strain: tuple[float, float], stress: tuple[float, float]) -> None:
+def draw_row(
+    row: Sequence[Axes],
+    test: pd.DataFrame,
+    strain: tuple[float, float],
+    stress: tuple[float, float],
+    titles: tuple[str, str],
+) -> None:
+    """Draw the cycles on the left and the parameter sets over the chosen one on the right."""
+    cycles, sets = row
+    draw_test(cycles, test)
+    cycles.legend(loc="upper left")
+    draw_chosen(sets, test)
+    draw_sets(sets, strain)
+    for axes, title in zip(row, titles, strict=True):
+        axes.set_title(title)
+        _finish(axes, strain, stress)
+
+
+def marked(test: pd.DataFrame) -> pd.DataFrame:
+    """The test with a column that says which rows are used."""
+    return test.assign(used=test["cycle"] == chosen_cycle(test))
+
+
+def _finish(axes: Axes, strain: tuple[float, float], stress: tuple[float, float]) -> None:
     """Set limits, labels and grid."""
     axes.set_xlim(*strain)
     axes.set_ylim(*stress)
