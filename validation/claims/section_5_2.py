@@ -1,4 +1,8 @@
-"""Numbers behind the claims of section 5.2: influence of the friction law on the temperature."""
+"""Numbers behind the claims of section 5.2: influence of the friction law on the temperature.
+
+A function has the key of its statement in `statements.toml` and returns the numbers of the ledger,
+and what else comparisons and texts name.
+"""
 
 from __future__ import annotations
 

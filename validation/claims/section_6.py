@@ -1,4 +1,8 @@
-"""Numbers behind the claims of section 6: the paper's conclusions."""
+"""Numbers behind the claims of section 6: the paper's conclusions.
+
+A function has the key of its statement in `statements.toml` and returns the numbers of the ledger,
+and what else comparisons and texts name.
+"""
 
 from __future__ import annotations
 
