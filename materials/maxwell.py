@@ -25,7 +25,6 @@ References
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import exprel
 
 from materials.arrays import FloatArray
 
@@ -37,6 +36,8 @@ def step_weights(h: FloatArray, beta: FloatArray) -> tuple[FloatArray, FloatArra
     """Weights of Ci_n, X_n and X in A (see above) for reduced steps h and growth rates beta."""
     x = beta * h
     old = np.exp(-x)
+    from scipy.special import exprel  # loaded with the first step, not with every case
+
     phi = exprel(-x)
     return old, (phi - old) / beta, (1.0 - phi) / beta
 

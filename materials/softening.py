@@ -9,7 +9,6 @@ References
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import erf
 
 from materials.arrays import FloatArray
 from materials.checks import require_finite, require_not_negative, require_positive
@@ -63,7 +62,7 @@ class OgdenRoxburgh:
         width = self.m + self.beta * W_max
         z = np.maximum(W_max - W, 0.0) / width
         slope = np.where(W_max > W, 2.0 / (_ROOT_PI * self.r * width) * np.exp(-z * z), 0.0)
-        return 1.0 - erf(z) / self.r, slope
+        return 1.0 - _erf(z) / self.r, slope
 
     def softened(self, energy: EnergyDerivatives, W_max: FloatArray) -> EnergyDerivatives:
         """Derivatives of the softened energy, whose stress is eta times the elastic one.
@@ -93,4 +92,10 @@ class OgdenRoxburgh:
 
 def _erf_integral(z: FloatArray) -> FloatArray:
     """Integral of the error function from 0 to z, plus ``pi^(-1/2)``."""
-    return np.asarray(z * erf(z) + np.exp(-z * z) / _ROOT_PI)
+    return np.asarray(z * _erf(z) + np.exp(-z * z) / _ROOT_PI)
+
+
+def _erf(z: FloatArray) -> FloatArray:
+    from scipy.special import erf  # loaded with the first step, not with every case
+
+    return np.asarray(erf(z))
