@@ -9,12 +9,12 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.data.errors import DataError
-from calibration.fitting.core import FitResult, Loss, Problem, fit, refuse_no_fit
+from calibration.fitting.core import FitResult, Loss, Problem, fit
 from calibration.fitting.minimise import minimise
 from calibration.fitting.progress import stage
 from calibration.fitting.stability import check_stability
 from calibration.memory.histories import Histories, read_histories
-from calibration.rubber.stress_checks import STRESS, check_modulus
+from calibration.rubber.stress_checks import check_modulus, fitted_energy
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
 from fem.files.program_version import version_of
 from materials.arrays import FloatArray
@@ -179,16 +179,8 @@ def _levels(data: Histories) -> int:
 
 def _completed(law: StressModel, model: str, data: Histories, result: FitResult) -> FitResult:
     stage("checks of the fit")
-    refuse_no_fit(result, data.table.file, STRESS)
     values = {name: result.values[name] for name in law.names}
-    try:
-        energy = law.build(values)
-    except ValueError as error:
-        raise DataError(
-            file=data.table.file,
-            found=f"data whose best {model} fit is no admissible energy ({error})",
-            expected="tests of a rubber, or another model",
-        ) from None
+    energy = fitted_energy(law, result, model, data.table.file)
     softening = OgdenRoxburgh(**{name: result.values[name] for name in NAMES})
     stability = check_stability(energy, data.points.window)
     levels = _levels(data)

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from calibration.data.errors import DataError
-from calibration.fitting.core import FitResult, Loss, fit, refuse_no_fit
+from calibration.fitting.core import FitResult, Loss, fit
 from calibration.fitting.progress import stage
 from calibration.fitting.stability import check_stability
 from calibration.memory.histories import Histories, branch_responses, read_histories, time_range
@@ -22,7 +22,7 @@ from calibration.memory.spectrum import (
     fewest,
     memory_problem,
 )
-from calibration.rubber.stress_checks import STRESS, check_modulus
+from calibration.rubber.stress_checks import check_modulus, fitted_energy
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
 from fem.files.program_version import version_of
 from materials.arrays import FloatArray
@@ -228,16 +228,8 @@ def correlation_warnings(independent: float) -> tuple[str, ...]:
 def _completed(work: HistoryFit, result: FitResult, found: dict[str, Any]) -> FitResult:
     data, law = work.data, work.law
     stage("checks of the fit")
-    refuse_no_fit(result, data.table.file, STRESS)
     slow = {name: result.values[name] for name in law.names}
-    try:
-        energy = law.build(slow)
-    except ValueError as error:
-        raise DataError(
-            file=data.table.file,
-            found=f"data whose best {work.model} fit is no admissible energy ({error})",
-            expected="tests of a rubber, or another model",
-        ) from None
+    energy = fitted_energy(law, result, work.model, data.table.file)
     g, tau = spectrum_of(result, found["branches"])
     prony = Prony(g=g, tau_s=tau, shift=work.shift, T_ref_C=work.T_ref_C)
     stability = check_stability(energy, data.points.window)

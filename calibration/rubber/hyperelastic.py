@@ -16,11 +16,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.data.errors import DataError
-from calibration.fitting.core import FitResult, Loss, Problem, fit, refuse_no_fit
+from calibration.fitting.core import FitResult, Loss, Problem, fit
 from calibration.fitting.progress import stage
 from calibration.fitting.stability import Stability, check_stability
 from calibration.rubber.cycles import Branch
-from calibration.rubber.stress_checks import STRESS, check_modulus
+from calibration.rubber.stress_checks import check_modulus, fitted_energy
 from calibration.rubber.stress_data import Cycle, StressData, select_data
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
 from calibration.rubber.stress_zero import Zero
@@ -233,15 +233,7 @@ def _completed(
     result: FitResult, model: str, law: StressModel, data: StressData, weights: Weighting
 ) -> FitResult:
     values = result.values
-    refuse_no_fit(result, data.table.file, STRESS)
-    try:
-        energy = law.build(values)
-    except ValueError as error:
-        raise DataError(
-            file=data.table.file,
-            found=f"data whose best {model} fit is no admissible energy ({error})",
-            expected="tests of a rubber, or another model",
-        ) from None
+    energy = fitted_energy(law, result, model, data.table.file)
     modulus = check_modulus(data.table, energy)
     stability = check_stability(energy, data.window)
     metadata = {

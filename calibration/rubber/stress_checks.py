@@ -6,7 +6,8 @@ from scipy.stats import spearmanr
 
 from calibration.data.errors import DataError
 from calibration.data.tables import Table
-from calibration.rubber.stress_models import Kinematics
+from calibration.fitting.core import FitResult, refuse_no_fit
+from calibration.rubber.stress_models import Kinematics, StressModel
 from materials.arrays import FloatArray
 from materials.hyperelastic_base import Hyperelastic
 from materials.plausible import SHEAR_MODULUS, judge
@@ -113,3 +114,22 @@ def check_modulus(used: Table, energy: Hyperelastic) -> tuple[str, ...]:
         found=f"stresses with the shear modulus {finding.found}",
         expected=finding.expected,
     )
+
+
+def fitted_energy(law: StressModel, result: FitResult, model: str, file: str) -> Hyperelastic:
+    """The energy with the fitted constants.
+
+    Raises
+    ------
+    DataError
+        If the fit does not follow the data (`refuse_no_fit`), or is no admissible energy.
+    """
+    refuse_no_fit(result, file, STRESS)
+    try:
+        return law.build({name: result.values[name] for name in law.names})
+    except ValueError as error:
+        raise DataError(
+            file=file,
+            found=f"data whose best {model} fit is no admissible energy ({error})",
+            expected="tests of a rubber, or another model",
+        ) from None
