@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     )
     from fem.stepping.model_parts import Progress, mesh_of
     from fem.stepping.point import Records, RunPoint, RunRecord, columns
-    from fem.stepping.programme import programme
     from fem.stepping.progress import RunProgress
     from fem.stepping.relaxation import RELAXED_ONSET, relaxed
     from fem.stepping.run import Run
