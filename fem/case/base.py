@@ -73,8 +73,12 @@ class Section(BaseModel):
         """Keys (dotted) whose numbers are possible, but outside their usual range."""
         for name, info in type(self).model_fields.items():
             value, key = getattr(self, name), info.alias or name
-            if isinstance(value, Section):
-                yield from ((f"{key}.{inner}", finding) for inner, finding in value.unusual())
+            parts = {key: value}
+            if isinstance(value, tuple):
+                parts = {f"{key}.{number}": part for number, part in enumerate(value)}
+            for where, part in parts.items():
+                if isinstance(part, Section):
+                    yield from ((f"{where}.{inner}", finding) for inner, finding in part.unusual())
             for kind in info.metadata:
                 finding = kind.judge(value) if isinstance(kind, Within) else None
                 if finding is not None:

@@ -19,9 +19,10 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 from fem.case.base import Section, refuse, refuse_finding
 from fem.case.friction import Friction
 from fem.case.heat import Heat
+from fem.case.loading import Loading
 from fem.case.reading import Source, apply_overrides, read_toml
 from fem.case.rubber import Rubber
-from fem.case.sections import Block, Loading, Output, Road, Solver
+from fem.case.sections import Block, Output, Road, Solver, Wear
 from fem.case.validation import case_error, refuse_unknown_keys
 from fem.case.writing import section_lines
 from materials.plausible import FRICTION, Finding, judge
@@ -30,6 +31,9 @@ from materials.plausible import FRICTION, Finding, judge
 _HARDEST_PRESS = 10.0
 #: Pressure at the leading corner over the mean pressure that a friction law has to bear [-].
 _PEAK_PRESSURE = 100.0
+
+
+_SECTIONS = ("block", "rubber", "road", "friction", "heat", "wear")
 
 
 class Case(Section):
@@ -54,6 +58,7 @@ class Case(Section):
     road: Road = Field(Road())
     friction: Friction = Field(default_factory=Friction)
     heat: Heat = Field(Heat())
+    wear: Wear = Field(Wear())
     solver: Solver = Field(Solver())
     output: Output = Field(Output())
 
@@ -89,7 +94,7 @@ class Case(Section):
     def _refuse_negative_friction(self) -> None:
         """Friction that pushes the block, or is infinite, at a pressure or speed of the run."""
         law, loading = self.friction.plain_law(), self.loading
-        pressure, speed = loading.mean_pressure_N_per_mm2, abs(loading.velocity_mm_per_s)
+        pressure, speed = loading.mean_pressure_N_per_mm2, loading.speed
         p = np.geomspace(law.p_min, max(_PEAK_PRESSURE * pressure, 2.0 * law.p_min), 60)
         v = np.geomspace(law.v_min, max(speed, 2.0 * law.v_min), 20)[:, None]
         with np.errstate(all="ignore"):
@@ -201,7 +206,7 @@ class Case(Section):
     def to_toml(self, heading: str = "Resolved case: every key as it is used.") -> str:
         """Return the resolved case as TOML with a comment of meaning and unit at each key."""
         lines = [f"# {line}".rstrip() for line in heading.splitlines()]
-        for name in ("block", "rubber", "road", "friction", "heat", "loading", "solver", "output"):
+        for name in (*_SECTIONS, "loading", "solver", "output"):
             lines += ["", *section_lines(name, getattr(self, name))]
         return "\n".join(lines) + "\n"
 

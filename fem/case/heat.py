@@ -28,6 +28,7 @@ _Start = Annotated[Celsius, Within(START_TEMPERATURE)]
 _Conductance = Annotated[NotNegative, Within(CONDUCTANCE)]
 _Pressure = Annotated[Positive, Within(PRESSURE)]
 _Velocity = Annotated[Positive, Field(ge=1e-9, le=1e9)]
+_Film = Annotated[NotNegative, Field(le=1e4)]
 _Prefactor = Annotated[NotNegative, Field(le=100.0)]
 
 
@@ -79,6 +80,9 @@ class Heat(Section):
         1.0, description="v_ref of the stiffening of the rubber's surface [mm/s]"
     )
     emissivity: Share = Field(0.9, description="of every free surface [-]")
+    convection_W_per_m2K: _Film = Field(
+        0.0, description="film coefficient of the block's free surfaces [W/(m^2 K)]"
+    )
     ambient_C: _Start = Field(20.0, description="surroundings and start temperature [deg C]")
 
     def partition_object(self) -> HeatPartition:

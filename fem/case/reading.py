@@ -162,9 +162,15 @@ def apply_overrides(source: Source, overrides: dict[str, Any]) -> None:
 
 def _set(source: Source, dotted: str, value: Any) -> None:
     *sections, key = dotted.split(".")
-    table = source.tables
+    table: Any = source.tables
     for depth, section in enumerate(sections):
+        if isinstance(table, list):
+            table = _item(source, table, sections[: depth + 1])
+            continue
         inner = table.get(section)
+        if isinstance(inner, list):
+            table[section] = table = list(inner)
+            continue
         # A text gives way to a table: block.mesh.cells_x after block.mesh = "default".
         if inner is not None and not isinstance(inner, (dict, str)):
             _raise(source.file, ".".join(sections[: depth + 1]), describe(inner), "a table")
@@ -175,6 +181,15 @@ def _set(source: Source, dotted: str, value: Any) -> None:
         value = str(expanded(value, "--set", dotted).absolute())
     table[key] = value
     source.origins[tuple(dotted.split("."))] = f"{source.file} (overridden)"
+
+
+def _item(source: Source, items: list[Any], location: list[str]) -> Table:
+    """A table of an array of tables, by its number; the array gets a copy of it."""
+    number = location[-1]
+    if not number.isdecimal() or int(number) >= len(items):
+        _raise(source.file, ".".join(location), number, f"a number from 0 to {len(items) - 1}")
+    items[int(number)] = item = dict(items[int(number)])
+    return item
 
 
 def _drop_replaced(tables: Table, dotted: str) -> None:

@@ -1,21 +1,19 @@
-"""The plain sections of a case file: block, road, loading, solver and output."""
+"""The plain sections of a case file: block, road, solver and output."""
 
 from __future__ import annotations
 
 from importlib.util import find_spec
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag, field_validator, model_validator
 
-from fem.case.base import Count, Finite, Positive, Section, Within, refuse
+from contact.wear import EnergyWear
+from fem.case.base import Count, Positive, Section, Within, refuse
 from materials.plausible import (
     BLOCK_SIZE,
     CONDUCTIVITY,
-    PRESSURE,
-    SLIDING_DISTANCE,
     SOLID_DENSITY,
     SPECIFIC_HEAT,
-    SPEED,
 )
 from materials.thermal import ThermalProperties
 
@@ -27,8 +25,6 @@ _Size = Annotated[Positive, Within(BLOCK_SIZE)]
 _Conductivity = Annotated[Positive, Within(CONDUCTIVITY)]
 _Density = Annotated[Positive, Within(SOLID_DENSITY)]
 _SpecificHeat = Annotated[Positive, Within(SPECIFIC_HEAT)]
-_Pressure = Annotated[Positive, Within(PRESSURE)]
-_Distance = Annotated[Positive, Within(SLIDING_DISTANCE)]
 _StepLength = Annotated[float, Field(ge=1e-7, le=1e3, allow_inf_nan=False)]
 _ViscousDistance = Annotated[float, Field(ge=0.0, le=1e6, allow_inf_nan=False)]
 
@@ -113,29 +109,6 @@ class Road(Section):
         )
 
 
-class Loading(Section):
-    """What is done to the block. The only section that must be given."""
-
-    mean_pressure_N_per_mm2: _Pressure = Field(
-        description="pressure on the top of the block, averaged over its length [N/mm^2]"
-    )
-    velocity_mm_per_s: Annotated[Finite, Within(SPEED)] = Field(
-        description="sliding velocity [mm/s]; negative slides to the left"
-    )
-    distance_mm: _Distance = Field(description="sliding distance of the platen [mm]")
-    top: Literal["platen", "pressure"] = Field(
-        "platen",
-        description='"platen": rigid plate glued to the top; "pressure": free, uniformly pressed',
-    )
-
-    @field_validator("velocity_mm_per_s", mode="before")
-    @classmethod
-    def _moves(cls, value: Any) -> Any:
-        if isinstance(value, int | float) and value == 0:
-            refuse("", str(value), "a velocity other than zero (negative slides to the left)")
-        return value
-
-
 class Solver(Section):
     """Numerical settings; the defaults are meant for every case."""
 
@@ -195,6 +168,28 @@ class Solver(Section):
         if self.step_mm_initial > self.step_mm_max:
             refuse("step_mm_initial", str(self.step_mm_initial), f"at most {self.step_mm_max}")
         return self
+
+
+class Wear(Section):
+    """Rubber worn off by the energy of friction; the shape of the block stays."""
+
+    coefficient_mm3_per_J: Annotated[float, Field(ge=0.0, le=1e3, allow_inf_nan=False)] = Field(
+        0.0, description="volume over friction work; tyres 0.0016 to 0.0099, 0 is off [mm^3/J]"
+    )
+    power_exponent: Annotated[Positive, Field(ge=0.1, le=5.0)] = Field(
+        1.0, description="exponent n of the power, at a given energy; 1 is none [-]"
+    )
+    power_reference_W_per_mm2: Annotated[Positive, Field(ge=1e-6, le=1e6)] = Field(
+        0.1, description="power at which the coefficient holds whatever n is [W/mm^2]"
+    )
+
+    def law(self) -> EnergyWear:
+        """Build the law of wear."""
+        return EnergyWear(
+            coefficient=self.coefficient_mm3_per_J,
+            power_exponent=self.power_exponent,
+            reference_power=self.power_reference_W_per_mm2,
+        )
 
 
 class Output(Section):

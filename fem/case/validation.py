@@ -27,6 +27,7 @@ _KINDS = {
     "less_than_equal": "a number of at most {le:.6g}",
     "model_type": "a table of keys",
     "list_type": "an array of numbers",
+    "tuple_type": "an array of tables",
     "too_short": "an array of at least {min_length} numbers",
     "too_long": "an array of at most {max_length} numbers",
     "dict_type": "a table of keys",
@@ -58,12 +59,26 @@ def _walk(
         inner = _table_model(fields[key].annotation)
         if inner is not None and isinstance(value, dict):
             _walk(source, value, inner, here, root)
+        for number, item in enumerate(value if isinstance(value, list | tuple) else ()):
+            kind = _kind_model(fields[key].annotation, item)
+            if kind is not None:
+                _walk(source, item, kind, (*here, str(number)), root)
 
 
 def _table_model(annotation: Any) -> type[BaseModel] | None:
     if isinstance(annotation, type):
         return annotation if issubclass(annotation, BaseModel) else None
     return next(filter(None, map(_table_model, get_args(annotation))), None)
+
+
+def _kind_model(annotation: Any, item: Any) -> type[BaseModel] | None:
+    """The model of a table in an array, told by its `kind`."""
+    if not isinstance(item, dict):
+        return None
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        kind = annotation.model_fields.get("kind")
+        return annotation if kind is not None and kind.default == item.get("kind") else None
+    return next(filter(None, (_kind_model(part, item) for part in get_args(annotation))), None)
 
 
 def _advice(
@@ -91,6 +106,11 @@ def case_error(error: ValidationError, source: Source) -> CaseError:
     if fault["type"] == "case":
         location += tuple(part for part in context["key"].split(".") if part)
         found, expected = context["found"], context["expected"]
+    elif fault["type"] == "union_tag_invalid":
+        found = describe(fault["input"])
+        if isinstance(fault["input"], dict):
+            location, found = (*location, "kind"), describe(fault["input"].get("kind"))
+        expected = one_of(re.findall(r"<(\w+)>", context["expected_tags"]))
     else:
         found, expected = _found(fault), _expected(fault, context)
     return CaseError(

@@ -12,14 +12,17 @@ _COMMENT_COLUMN = 44
 
 def section_lines(name: str, section: BaseModel) -> list[str]:
     """Lines of one table of the case file, keys without a value left out."""
-    lines = [f"[{name}]"]
+    lines, inner = [f"[{name}]"], []
     for field, info in type(section).model_fields.items():
         value = getattr(section, field)
-        if value is not None:
+        if isinstance(value, tuple) and value:
+            for part in value:
+                inner += ["", *section_lines(f"[{name}.{field}]", part)]
+        elif value is not None and field not in getattr(section, "hidden", ()):
             entry = f"{info.alias or field} = {toml_value(value)}"
             comment = f"  # {info.description}" if info.description else ""
             lines.append(f"{entry:<{_COMMENT_COLUMN}}{comment}".rstrip())
-    return lines
+    return lines + inner
 
 
 def toml_value(value: Any) -> str:

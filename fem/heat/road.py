@@ -68,10 +68,15 @@ class RoadGrid:
             raise ValueError(f"road grid: behind = {self.behind}, expected at least 0")
 
     @classmethod
-    def for_duration(cls, road: ThermalProperties, duration: float) -> RoadGrid:
-        """Default grid, at least five diffusion lengths sqrt(alpha t) of the event [s] deep."""
+    def for_duration(
+        cls, road: ThermalProperties, duration: float, *, keeps_all: bool = False
+    ) -> RoadGrid:
+        """Default grid, at least five diffusion lengths sqrt(alpha t) of the event [s] deep.
+
+        One that `keeps_all` drops nothing behind the block, which comes back to it.
+        """
         depth = 5.0 * float(np.sqrt(road.diffusivity * duration))
-        return cls(depth=max(depth, 5.0))
+        return cls(depth=max(depth, 5.0), behind=np.inf if keeps_all else cls.behind)
 
     def layers(self) -> FloatArray:
         """Depth of the node rows below the surface, (nd,) [mm], from 0 to `depth`."""
@@ -252,6 +257,8 @@ class RoadConduction:
         """
         margin = self.block_length * (0.5 + self.grid.behind)
         last = state.first + len(state.excess) - 1
+        if np.isinf(margin):
+            return state
         if sweep > 0.0:
             spare = int(np.floor((position - margin) / self.dx + 1e-9)) - state.first
         else:

@@ -41,6 +41,8 @@ class HeatLoad:
         (friction of the block on itself) [mJ/s].
     bulk_power : (n,) float array or None
         Heat made inside the block, by node [mJ/s].
+    convection : float
+        Film coefficient of the block's free surfaces [N/(mm s K)].
     """
 
     dt: float
@@ -52,6 +54,7 @@ class HeatLoad:
     surface_nodes: IntArray = field(default_factory=_no_nodes)
     surface_power: FloatArray = field(default_factory=_no_values)
     bulk_power: FloatArray | None = None
+    convection: float = 0.0
 
     def __post_init__(self) -> None:
         if not self.dt > 0.0:
@@ -85,9 +88,9 @@ class HeatState:
         Displacement for which the conduction matrix in use was made [mm].
     flow : (n,) float array
         Heat flow from the block's nodes to the road in the last sub-step [mJ/s] per mm depth.
-    generated, in_bulk, radiated, left : float
+    generated, in_bulk, radiated, convected, left : float
         Heat made, the part of it made inside the block, heat lost by radiation of block and
-        road, and heat in the road columns that were dropped far behind the block [mJ/mm].
+        road, by convection from the block, and heat in the road that was left behind [mJ/mm].
     in_block, in_road : float
         Heat stored above the initial temperature [mJ/mm].
     sub_steps, exchange_iterations : int
@@ -104,6 +107,7 @@ class HeatState:
     in_block: float = 0.0
     in_road: float = 0.0
     radiated: float = 0.0
+    convected: float = 0.0
     left: float = 0.0
     sub_steps: int = 0
     exchange_iterations: int = 0
@@ -111,7 +115,8 @@ class HeatState:
     @property
     def imbalance(self) -> float:
         """Heat made minus heat found; zero up to rounding [mJ/mm]."""
-        return self.generated - self.in_block - self.in_road - self.radiated - self.left
+        lost = self.radiated + self.convected + self.left
+        return self.generated - self.in_block - self.in_road - lost
 
 
 @dataclass(frozen=True, kw_only=True)

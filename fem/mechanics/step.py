@@ -55,6 +55,8 @@ class StepLoad:
         Temperature of the nodes in the last accepted step, for rubber with a memory [C].
     raised : float or None
         Rise of the platen in the step, which takes the place of the force [mm].
+    inertia : bool
+        Whether the mass of the block counts; without it the block ends the step at rest.
     """
 
     dt: float
@@ -65,6 +67,7 @@ class StepLoad:
     pairs: Pairs | None = None
     T_C: FloatArray | None = None
     raised: float | None = None
+    inertia: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -330,6 +333,7 @@ class StepProblem:
             material=system.material(state, load.T_C, load.dt),
         )
         self.frame = np.array([load.sweep / load.dt, 0.0])
+        self.mass = system.mass if load.inertia else np.zeros_like(system.mass)
         self._latest: tuple[FloatArray, FloatArray, ElementForces] | None = None
 
     def again(self, mu: FloatArray, pairs: Pairs | None) -> StepProblem:
@@ -368,7 +372,7 @@ class StepProblem:
         nodal = summed(system.elements.dofs.ravel(), elements.residual.ravel(), 2 * n)
         nodal = nodal.reshape(n, 2)
         acceleration = (self.velocity(u) - self.state.velocity) / load.dt
-        nodal += system.mass[:, None] * acceleration
+        nodal += self.mass[:, None] * acceleration
         if load.raised is None:
             nodal[:, 1] += load.force * system._top_load
         return np.asarray(nodal)
@@ -382,12 +386,13 @@ class StepProblem:
         self, x: Iterate, rubber: StepEnd, self_shear: FloatArray | None = None
     ) -> MechanicalState:
         """State at the end of the step, for a converged iterate."""
+        velocity = self.velocity(x.u) if self.load.inertia else np.zeros_like(x.u)
         lost = None
         if rubber.viscous is not None:
             lost = self.system.elements.mean(rubber.viscous)
             lost = lost if self.state.lost is None else self.state.lost + lost
         return MechanicalState(
-            u=x.u, velocity=self.velocity(x.u), p=x.p, status=x.status, self_shear=self_shear,
+            u=x.u, velocity=velocity, p=x.p, status=x.status, self_shear=self_shear,
             rubber=rubber.state, lost=lost,
         )  # fmt: skip
 
@@ -517,7 +522,7 @@ class StepProblem:
         system, elements, pairs = self.system, evaluation.elements, self.load.pairs
         assert elements is not None
         data = system.pattern.sum(system.elements.tangent(elements))
-        inertia = np.repeat(system.mass / self.load.dt**2, 2)
+        inertia = np.repeat(self.mass / self.load.dt**2, 2)
         equations = system.equation.ravel()
         data[system._diagonal] += np.bincount(
             equations[system._numbered], inertia[system._numbered], minlength=system.pattern.size

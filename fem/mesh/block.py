@@ -78,6 +78,14 @@ class BlockMesh:
         return self.boundary[self.is_free]
 
     @cached_property
+    def candidate_lengths(self) -> FloatArray:
+        """Undeformed length of surface that each candidate stands for, (m,) [mm]."""
+        edges = np.linalg.norm(np.diff(self.points[self.boundary], axis=0), axis=1)
+        half = np.where(self.joined, 0.5 * edges, 0.0)
+        beside = np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
+        return np.asarray(beside[self.is_free])
+
+    @cached_property
     def chains(self) -> list[Chain]:
         """Named pieces of the free boundary; one after another they are the `candidates`."""
         return named_chains(self.points, self.curves, self.breaks, self.direction)

@@ -122,6 +122,9 @@ def audited(
     end_weight = 1.0 - start_weight
     work = (start_weight * audit.platen_force_x + end_weight * force_x) * step.target.sweep
     work += (start_weight * audit.platen_force_y + end_weight * force_y) * lowered
+    if not step.target.inertia:
+        # The platen that stops the block takes what it had.
+        work -= audit.kinetic
     dissipated = step.power * step.target.dt
     friction = float(np.sum(dissipated)) + step.self_friction
     viscous = energies.viscous

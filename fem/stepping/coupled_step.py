@@ -263,7 +263,16 @@ class CoupledModel:
 
     def initial_state(self) -> CoupledState:
         """Block at rest, just touching the road, at ambient temperature."""
-        mechanics, heat = self.mechanics.initial_state(), self.heat.initial_state()
+        return self._touching(self.mechanics.initial_state(), self.heat.initial_state(), 0.0)
+
+    def touched_down(self, state: CoupledState, *, fresh_road: bool) -> CoupledState:
+        """State of a block that hung in air and comes down on the road again, at rest."""
+        mechanics = self.mechanics.above_road(state.mechanics)
+        heat = self.heat.touched_down(state.heat, mechanics.u, fresh_road)
+        return self._touching(mechanics, heat, state.time)
+
+    def _touching(self, mechanics: MechanicalState, heat: HeatState, time: float) -> CoupledState:
+        """State of a block that touches the road without a force."""
         zeros = np.zeros(self.mechanics.candidates.size)
         contact = RoadContact(
             status=mechanics.status, length=zeros, normal=zeros, shear=zeros, pressure=zeros,
@@ -273,7 +282,7 @@ class CoupledModel:
             contact, pressure=np.where(mechanics.status.active, self.mean_pressure, 0)
         )
         return CoupledState(
-            time=0.0, position=0.0, mechanics=mechanics, heat=heat, contact=contact,
+            time=time, position=0.0, mechanics=mechanics, heat=heat, contact=contact,
             mu=self._coefficient(contact, heat),
         )  # fmt: skip
 
@@ -303,6 +312,7 @@ class CoupledModel:
             pairs=pairs,
             T_C=state.heat.T,
             raised=target.raised,
+            inertia=target.inertia,
         )
         problem: Problem = self.mechanics.step(state.mechanics, load)
         start = problem.start() if guess is None else guess.solution
@@ -477,7 +487,7 @@ class CoupledModel:
             conductance=(W_PER_M2_K * h * contact.length)[active],
             surface_nodes=np.concatenate([self.mechanics.candidates[opened], surface[0]]),
             surface_power=np.concatenate([power[opened], surface[1]]),
-            bulk_power=bulk,
+            bulk_power=bulk, convection=target.convection,
         )  # fmt: skip
         return self.heat.advance(state.heat, load, state.position)
 

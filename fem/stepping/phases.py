@@ -7,7 +7,7 @@ motion over the road, the time that takes), how long steps may be, and how far t
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
+from math import floor, inf, log2
 from typing import Protocol
 
 from scipy.optimize import brentq
@@ -16,10 +16,9 @@ from scipy.optimize import brentq
 PRESSING_MOTION = 1.0
 #: Parts of pressing and lifting: the longest and the shortest step.
 LONGEST_PART, SHORTEST_PART = 0.25, 1e-4
-#: Longest step in air over the time in air, and the first one over the time of the contact: the
-#: heat that a contact left in the surface spreads ever more slowly. Backward Euler then errs by a
-#: fifth of this share on what is left of a contact's temperature.
-RESTING_SHARE, FIRST_REST = 0.15, 0.05
+#: Longest step at rest over the time at rest, and the first one [s]: the heat that a contact left
+#: in the surface spreads ever more slowly.
+RESTING_SHARE, FIRST_REST = 0.15, 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +39,8 @@ class Target:
         Rise of the platen in place of the force [mm].
     convection : float
         Film coefficient of the free surfaces [N/(mm s K)].
+    inertia : bool
+        Whether the block's inertia counts.
     """
 
     dt: float
@@ -48,6 +49,7 @@ class Target:
     motion: float
     raised: float | None = None
     convection: float = 0.0
+    inertia: bool = True
 
 
 class Phase(Protocol):
@@ -63,7 +65,19 @@ class Phase(Protocol):
 
     @property
     def contact(self) -> int:
-        """Number of the contact with the road, from 1 on; 0 in air."""
+        """Number of the contact with the road, or of the last one, from 1 on."""
+
+    @property
+    def number(self) -> int:
+        """Number of the phase in the case, from 1 on."""
+
+    @property
+    def pressure(self) -> float:
+        """Mean pressure on the top at its end [N/mm^2]."""
+
+    @property
+    def touches_down(self) -> bool:
+        """Whether it begins with a block that comes down from the air."""
 
     @property
     def end(self) -> float:
@@ -80,6 +94,10 @@ class Phase(Protocol):
     @property
     def step_min(self) -> float:
         """Step that is too short to go on with."""
+
+    @property
+    def growth(self) -> float:
+        """Factor of steps after an easy one."""
 
     @property
     def onset(self) -> bool:
@@ -103,8 +121,12 @@ class _Steps:
     ----------
     step_initial, step_max, step_min : float
         Steps of the coordinate.
-    contact : int
-        Number of the contact with the road; 0 in air.
+    number, contact : int
+        Number of the phase in the case, and of its contact with the road.
+    pressure : float
+        Mean pressure on the top at its end [N/mm^2].
+    touches_down : bool
+        Whether it begins with a block that comes down from the air.
     convection : float
         Film coefficient of the free surfaces [N/(mm s K)].
     """
@@ -112,10 +134,14 @@ class _Steps:
     step_initial: float
     step_max: float
     step_min: float
+    number: int = 1
     contact: int = 1
+    pressure: float = 0.0
+    touches_down: bool = False
     convection: float = 0.0
 
     onset = False
+    growth = 1.5
 
     def longest(self, at: float) -> float:
         """Longest step from a coordinate on."""
@@ -132,14 +158,11 @@ class Press(_Steps):
         Duration [s].
     force_before, force : float
         Force at its start and at its end [N/mm].
-    velocity : float
-        Of the platen [mm/s].
     """
 
     time: float
     force: float
     force_before: float = 0.0
-    velocity: float = 0.0
     name: str = "pressing"
     unit: str = " of the load"
     end: float = 1.0
@@ -147,18 +170,17 @@ class Press(_Steps):
     def target(self, start: float, stop: float) -> Target:
         """What a step between two parts does."""
         share = stop - start
-        motion = self.velocity * self.time * share
         return Target(
             dt=self.time * share,
-            sweep=motion,
+            sweep=0.0,
             force=self.force_before + (self.force - self.force_before) * stop,
-            motion=PRESSING_MOTION * share + abs(motion),
+            motion=PRESSING_MOTION * share,
             convection=self.convection,
         )
 
     def slid(self, at: float) -> float:
-        """Distance over the road [mm]."""
-        return abs(self.velocity) * self.time * at
+        """None."""
+        return 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,8 +193,10 @@ class Slide(_Steps):
         Sliding distance [mm].
     speed, sense : float
         Final speed [mm/s], and its sign.
+    start : float
+        Speed at its start [mm/s].
     acceleration_distance : float
-        Distance over which it starts from rest [mm]; 0 where it has its speed already.
+        Distance over which the speed changes [mm]; 0: at once.
     force : float
         On the platen [N/mm].
     onset_share : float
@@ -184,6 +208,7 @@ class Slide(_Steps):
     speed: float
     sense: float
     force: float
+    start: float = 0.0
     acceleration_distance: float = 0.0
     onset_share: float = inf
     onset: bool = False
@@ -197,7 +222,8 @@ class Slide(_Steps):
     def target(self, start: float, stop: float) -> Target:
         """What a step between two distances does."""
         ramp, motion = self.acceleration_distance, stop - start
-        dt = sliding_time(stop, self.speed, ramp) - sliding_time(start, self.speed, ramp)
+        since = sliding_time(start, self.speed, ramp, self.start)
+        dt = sliding_time(stop, self.speed, ramp, self.start) - since
         return Target(
             dt=dt,
             sweep=self.sense * motion,
@@ -212,53 +238,38 @@ class Slide(_Steps):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Change(_Steps):
-    """The speed of the platen changes, or stays, at a constant force; the coordinate is time [s].
+class Hold(_Steps):
+    """The platen stands at a constant force; the coordinate is time [s], and steps follow the heat.
 
     Attributes
     ----------
     end : float
         Duration [s].
-    before, after : float
-        Velocity at both ends [mm/s]; it goes over as ``3 tau^2 - 2 tau^3``.
     force : float
         On the platen [N/mm].
     """
 
     end: float
-    before: float
-    after: float
     force: float
-    name: str = "sliding"
+    name: str = "holding"
     unit: str = " s"
+    growth = 2.0
 
-    def _position(self, at: float) -> float:
-        tau = at / self.end
-        return self.before * at + (self.after - self.before) * self.end * tau**3 * (1 - 0.5 * tau)
+    def longest(self, at: float) -> float:
+        """Longest step from a time on."""
+        return at_rest(self.step_initial, at)
 
     def target(self, start: float, stop: float) -> Target:
         """What a step between two times does."""
-        sweep = self._position(stop) - self._position(start)
-        fastest = max(abs(self.before), abs(self.after))
-        motion = fastest * (stop - start) or PRESSING_MOTION * (stop - start) / self.end
+        dt = stop - start
         return Target(
-            dt=stop - start,
-            sweep=sweep,
-            force=self.force,
-            motion=motion,
-            convection=self.convection,
-        )
+            dt=dt, sweep=0.0, force=self.force, motion=PRESSING_MOTION * dt / self.end,
+            convection=self.convection, inertia=False,
+        )  # fmt: skip
 
     def slid(self, at: float) -> float:
-        """Distance over the road [mm], back and forth."""
-        if self.before * self.after >= 0.0:
-            return abs(self._position(at))
-        share = self.before / (self.before - self.after)
-        tau = brentq(lambda tau: tau**2 * (3.0 - 2.0 * tau) - share, 0.0, 1.0, xtol=1e-14)
-        turn = tau * self.end
-        if at <= turn:
-            return abs(self._position(at))
-        return abs(self._position(turn)) + abs(self._position(at) - self._position(turn))
+        """None."""
+        return 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -271,13 +282,10 @@ class LiftOff(_Steps):
         Duration [s].
     rise : float
         Of the platen [mm].
-    velocity : float
-        Of the platen over the road, which the block leaves as it slides [mm/s].
     """
 
     time: float
     rise: float
-    velocity: float = 0.0
     name: str = "lifting"
     unit: str = " of the rise"
     end: float = 1.0
@@ -285,19 +293,14 @@ class LiftOff(_Steps):
     def target(self, start: float, stop: float) -> Target:
         """What a step between two parts does."""
         share = stop - start
-        sweep = self.velocity * self.time * share
         return Target(
-            dt=self.time * share,
-            sweep=sweep,
-            force=0.0,
-            raised=self.rise * share,
-            motion=PRESSING_MOTION * share + abs(sweep),
-            convection=self.convection,
-        )
+            dt=self.time * share, sweep=0.0, force=0.0, raised=self.rise * share,
+            motion=PRESSING_MOTION * share, convection=self.convection, inertia=False,
+        )  # fmt: skip
 
     def slid(self, at: float) -> float:
-        """Distance over the road, as long as anything touches it [mm]."""
-        return abs(self.velocity) * self.time * at
+        """None."""
+        return 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -307,10 +310,11 @@ class Rest(_Steps):
     end: float
     name: str = "in air"
     unit: str = " s"
+    growth = 2.0
 
     def longest(self, at: float) -> float:
         """Longest step from a time on."""
-        return max(self.step_initial, RESTING_SHARE * at)
+        return at_rest(self.step_initial, at)
 
     def target(self, start: float, stop: float) -> Target:
         """What a step between two times does."""
@@ -321,6 +325,7 @@ class Rest(_Steps):
             raised=0.0,
             motion=PRESSING_MOTION,
             convection=self.convection,
+            inertia=False,
         )
 
     def slid(self, at: float) -> float:
@@ -328,8 +333,16 @@ class Rest(_Steps):
         return 0.0
 
 
-def sliding_time(distance: float, speed: float, ramp: float) -> float:
-    """Time since the start of sliding [s], smoothly accelerated up to `speed` [mm/s] at first.
+def at_rest(first: float, at: float) -> float:
+    """Longest step from a time at rest on [s]: the first one times a power of 2.
+
+    Steps of equal length share their matrices of conduction.
+    """
+    return first * 2.0 ** max(floor(log2(max(RESTING_SHARE * at / first, 1.0))), 0)
+
+
+def sliding_time(distance: float, speed: float, ramp: float, start: float = 0.0) -> float:
+    """Time since the start of a slide [s], smoothly accelerated up to `speed` [mm/s] at first.
 
     The speed rises as ``3 tau^2 - 2 tau^3``, without a jump of the acceleration: a block of rubber
     would answer one with a jump of the platen's force.
@@ -342,14 +355,20 @@ def sliding_time(distance: float, speed: float, ramp: float) -> float:
         Final speed [mm/s].
     ramp : float
         Distance of acceleration [mm].
+    start : float
+        Speed at the start [mm/s].
 
     Examples
     --------
     >>> sliding_time(2.5, 300.0, 0.5)
     0.01
     """
+    change = (speed - start) / (speed + start)
     if distance >= ramp:
-        return (distance + ramp) / speed
-    # The distance is the integral of the speed, s/ramp = 2 tau^3 - tau^4.
-    tau = brentq(lambda tau: tau**3 * (2.0 - tau) - distance / ramp, 0.0, 1.0, xtol=1e-14)
-    return float(tau * 2.0 * ramp / speed)
+        return (distance + change * ramp) / speed
+    # The distance is the integral of the speed; from rest s/ramp = 2 tau^3 - tau^4.
+    tau = brentq(
+        lambda tau: change * tau**3 * (2.0 - tau) + (1.0 - change) * tau - distance / ramp,
+        0.0, 1.0, xtol=1e-14,
+    )  # fmt: skip
+    return float(tau * 2.0 * ramp / (speed + start))

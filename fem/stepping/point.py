@@ -12,6 +12,7 @@ from fem.results import BottomHistory, Snapshot
 from fem.stepping.audit import EnergyAudit
 from fem.stepping.coupled_step import CoupledState
 from fem.stepping.step_control import StepPlan
+from fem.stepping.wear import Wear
 from materials.arrays import AnyArray
 
 
@@ -31,6 +32,8 @@ class RunPoint:
         Accepted state.
     audit : EnergyAudit
         Energies up to there.
+    wear : Wear
+        What has worn off up to there.
     iterations, rejected : int
         Newton iterations and rejected steps up to there.
     smallest_J : float
@@ -44,6 +47,7 @@ class RunPoint:
     distance: float
     state: CoupledState
     audit: EnergyAudit
+    wear: Wear
     iterations: int
     rejected: int
     smallest_J: float

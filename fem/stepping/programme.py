@@ -2,55 +2,174 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import ceil
+from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
+from fem.case import loading
 from fem.case.case import Case
-from fem.stepping.phases import LONGEST_PART, SHORTEST_PART, Phase, Press, Slide
+from fem.stepping.phases import (
+    FIRST_REST,
+    LONGEST_PART,
+    SHORTEST_PART,
+    Hold,
+    LiftOff,
+    Phase,
+    Press,
+    Rest,
+    Slide,
+    sliding_time,
+)
+from materials.units import W_PER_M2_K
 
 #: Longest sliding step over the distance slid. The edge rolls under at a few millimetres; in longer
 #: steps the heat of the block's friction on itself would come in one go.
 ONSET_SHARE = 0.2
-#: Duration of the pressing phase [s].
-PRESSING_TIME = 0.05
-#: Distance of acceleration at the start of sliding [mm].
-ACCELERATION_DISTANCE = 0.5
+#: Longest time in which a block is lifted off [s], its share of the time in air, and how far it is
+#: raised over its height [-].
+LIFTING_TIME, LIFTING_SHARE, LIFTING_HEIGHT = 1e-3, 0.1, 0.5
+#: First step of lifting off, of all of it: the edge unrolls.
+FIRST_LIFT = 0.01
 
 
 def programme(case: Case) -> list[Phase]:
-    """Phases of a case: pressing and sliding (section 4.1 of the paper, Fig. 7).
+    """Phases of a case; of a single slide pressing and sliding (section 4.1 of the paper, Fig. 7).
 
     A rigid block is pressed and has its speed at once.
     """
-    loading, scale = case.loading, case.solver.steps_scale
-    force = loading.mean_pressure_N_per_mm2 * case.block.length_mm
-    slide = _slide(case, loading.velocity_mm_per_s, loading.distance_mm, force)
-    if case.block.rigid:
-        return [slide]
-    longest = LONGEST_PART * scale
-    return [
-        Press(
-            time=PRESSING_TIME, force=force,
-            step_initial=longest, step_max=longest, step_min=SHORTEST_PART,
-        ),
-        slide,
-    ]  # fmt: skip
+    builder = _Builder(case)
+    for _ in range(case.loading.repeat):
+        for number, phase in enumerate(case.loading.phases, 1):
+            builder.add(number, phase)
+    return builder.phases
 
 
-def _slide(case: Case, velocity: float, distance: float, force: float) -> Slide:
-    """A slide from rest; equal steps of the heat's length for a rigid block."""
-    solver, scale = case.solver, case.solver.steps_scale
-    speed, sense = abs(velocity), float(np.sign(velocity))
-    if case.block.rigid:
-        step = distance / max(1, ceil(distance / (solver.heat_step_mm * scale) - 1e-9))
-        return Slide(
-            end=distance, speed=speed, sense=sense, force=force,
-            step_initial=step, step_max=step, step_min=0.0,
+class _Builder:
+    """Phases one after another, each from where the last one ends."""
+
+    def __init__(self, case: Case) -> None:
+        self.case, self.scale, self.rigid = case, case.solver.steps_scale, case.block.rigid
+        self.film = W_PER_M2_K * case.heat.convection_W_per_m2K
+        self.phases: list[Phase] = []
+        self.pressure = self.velocity = 0.0
+        self.number, self.contact, self.in_air = 0, 0, False
+
+    @property
+    def force(self) -> float:
+        """Force on the platen [N/mm]."""
+        return self.pressure * self.case.block.length_mm
+
+    def add(self, number: int, phase: loading.PhaseKind) -> None:
+        """Append a phase of the case."""
+        self.number = number
+        if isinstance(phase, loading.Press):
+            self._press(phase)
+        elif isinstance(phase, loading.Lift):
+            self._lift(phase)
+        elif phase.velocity_mm_per_s == 0.0:
+            self._hold(phase.duration)
+        else:
+            self._slide(phase)
+
+    def _common(self) -> dict[str, Any]:
+        return {
+            "number": self.number,
+            "contact": self.contact,
+            "pressure": self.pressure,
+            "convection": self.film,
+        }
+
+    def _press(self, phase: loading.Press) -> None:
+        before, comes_down = self.force, self.in_air
+        self.contact += comes_down or not self.contact
+        self.pressure, self.velocity, self.in_air = phase.mean_pressure_N_per_mm2, 0.0, False
+        if self.rigid:
+            if self.case.loading.phase:
+                self._hold(phase.time_s, touches_down=comes_down)
+            return
+        longest = LONGEST_PART * self.scale
+        self.phases.append(
+            Press(
+                time=phase.time_s, force=self.force, force_before=before, touches_down=comes_down,
+                step_initial=longest, step_max=longest, step_min=SHORTEST_PART, **self._common(),
+            )
         )  # fmt: skip
-    return Slide(
-        end=distance, speed=speed, sense=sense, force=force,
-        acceleration_distance=ACCELERATION_DISTANCE, onset=True, onset_share=ONSET_SHARE * scale,
-        step_initial=solver.step_mm_initial * scale, step_max=solver.step_mm_max * scale,
-        step_min=solver.step_mm_min,
-    )  # fmt: skip
+
+    def _slide(self, phase: loading.Slide) -> None:
+        speed, sense = abs(phase.velocity_mm_per_s), float(np.sign(phase.velocity_mm_per_s))
+        # A block that turns round stops first.
+        start = max(sense * self.velocity, 0.0)
+        ramp = 0.0 if self.rigid else phase.acceleration_distance_mm
+        distance = _distance(phase, speed, start, ramp)
+        self.velocity = phase.velocity_mm_per_s
+        last = self.phases[-1] if self.phases else None
+        if isinstance(last, Slide) and start == speed:
+            # The same slide goes on.
+            self.phases[-1] = replace(last, end=last.end + distance)
+            return
+        self.phases.append(
+            Slide(
+                end=distance, speed=speed, sense=sense, force=self.force, start=start,
+                acceleration_distance=ramp, **self._steps(distance), **self._common(),
+            )
+        )  # fmt: skip
+
+    def _steps(self, distance: float) -> dict[str, Any]:
+        """Steps of a slide; of a rigid block equal ones of the heat's length."""
+        solver, scale = self.case.solver, self.scale
+        if self.rigid:
+            step = distance / max(1, ceil(distance / (solver.heat_step_mm * scale) - 1e-9))
+            return {"step_initial": step, "step_max": step, "step_min": 0.0}
+        return {
+            "step_initial": solver.step_mm_initial * scale,
+            "step_max": solver.step_mm_max * scale,
+            "step_min": solver.step_mm_min,
+            "onset": True,
+            "onset_share": ONSET_SHARE * scale,
+        }
+
+    def _hold(self, duration: float, *, touches_down: bool = False) -> None:
+        self.velocity = 0.0
+        self.phases.append(
+            Hold(
+                end=duration, force=self.force, touches_down=touches_down,
+                **self._steps_at_rest(duration), **self._common(),
+            )
+        )  # fmt: skip
+
+    def _steps_at_rest(self, duration: float) -> dict[str, Any]:
+        first = min(FIRST_REST, 0.1 * duration) * self.scale
+        return {"step_initial": first, "step_max": duration, "step_min": 1e-3 * first}
+
+    def _lift(self, phase: loading.Lift) -> None:
+        self.pressure, self.velocity, self.in_air = 0.0, 0.0, True
+        common, rest = self._common(), phase.time_s
+        if phase.convection_W_per_m2K is not None:
+            common["convection"] = W_PER_M2_K * phase.convection_W_per_m2K
+        if not self.rigid:
+            time = min(LIFTING_TIME, LIFTING_SHARE * rest)
+            self.phases.append(
+                LiftOff(
+                    time=time, rise=LIFTING_HEIGHT * self.case.block.height_mm,
+                    step_initial=FIRST_LIFT * self.scale, step_max=LONGEST_PART * self.scale,
+                    step_min=SHORTEST_PART, **common,
+                )
+            )  # fmt: skip
+            rest -= time
+        self.phases.append(Rest(end=rest, **self._steps_at_rest(rest), **common))
+
+
+def _distance(phase: loading.Slide, speed: float, start: float, ramp: float) -> float:
+    """Distance of a slide [mm]; one that lasts a given time gets as far as its speed lets it."""
+    if phase.distance_mm is not None:
+        return phase.distance_mm
+    duration = phase.duration
+    whole = speed * duration - (speed - start) / (speed + start) * ramp
+    if whole >= ramp:
+        return whole
+    return float(
+        brentq(lambda s: sliding_time(s, speed, ramp, start) - duration, 0.0, ramp, xtol=1e-14)
+    )

@@ -1,7 +1,8 @@
 """The time loop: from phase to phase and from step to step, whatever is done to whichever block.
 
-After each accepted step the observers look at it in one fixed order: energy audit, history, bottom,
-snapshots; then the run stands at its next point, which a checkpoint may keep and progress reports.
+After each accepted step the observers look at it in one fixed order: energy audit, wear, history,
+bottom, snapshots; then the run stands at its next point, which a checkpoint may keep and progress
+reports.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from fem.stepping.moment import Moment, Observer
 from fem.stepping.observers.bottom import BottomRecorder
 from fem.stepping.observers.fields import SnapshotTaker
 from fem.stepping.observers.history import HistoryRecorder
+from fem.stepping.observers.wear import WearRecorder
 from fem.stepping.phases import Phase
 from fem.stepping.point import Records, RunPoint, RunRecord, columns
 from fem.stepping.programme import programme
@@ -56,11 +58,12 @@ class Run:
         self.phases = programme(case)
         mechanics, mesh = model.mechanics, model.mechanics.mesh
         self.auditor = EnergyAuditor(mesh, mechanics.start_weight)
-        self.history = HistoryRecorder(case, model, self.auditor)
+        self.wear = WearRecorder(case, mesh)
+        self.history = HistoryRecorder(case, model, self.auditor, self.wear)
         self.bottom = BottomRecorder(mesh)
         self.fields = SnapshotTaker(case, model, self.phases)
         self.observers: tuple[Observer, ...] = (
-            self.auditor, self.history, self.bottom, self.fields,
+            self.auditor, self.wear, self.history, self.bottom, self.fields,
         )  # fmt: skip
         self.state = model.initial_state()
         self.iterations = self.rejected = 0
@@ -91,6 +94,7 @@ class Run:
     def _point(self, phase: int, plan: StepPlan, distance: float) -> RunPoint:
         return RunPoint(
             phase=phase, plan=plan, distance=distance, state=self.state, audit=self.auditor.audit,
+            wear=self.wear.wear,
             iterations=self.iterations, rejected=self.rejected, smallest_J=self.history.smallest_J,
             rows=len(self.history.rows), snapshots=len(self.fields.snapshots), log=len(self.log),
         )  # fmt: skip
@@ -108,7 +112,8 @@ class Run:
     def go_on_from(self, kept: RunRecord) -> None:
         """Take over the point and the records of an interrupted run."""
         point, records = kept.point, kept.records
-        self.point, self.state, self.auditor.audit = point, point.state, point.audit
+        self.point, self.state = point, point.state
+        self.auditor.audit, self.wear.wear = point.audit, point.wear
         self.iterations, self.rejected = point.iterations, point.rejected
         self.history.rows, self.history.smallest_J = records.rows, point.smallest_J
         self.bottom.go_on_from(records.bottom)
@@ -132,12 +137,17 @@ class Run:
         return stoppable(phases)
 
     def _phase(self, number: int, phase: Phase) -> Outcome:
-        control = StepController(step_max=phase.step_max, step_min=phase.step_min)
+        control = StepController(
+            step_max=phase.step_max, step_min=phase.step_min, growth=phase.growth
+        )
         if self.model.damping is None:  # steps that fail can only be cut
             control = replace(control, enough_help=0.0)
         plan, before = StepPlan(step=phase.step_initial), self.distance
         if number == self.point.phase:
             plan, before = self.point.plan, self.point.distance
+        elif phase.touches_down:
+            fresh = self.case.loading.road == "fresh"
+            self.state = self.model.touched_down(self.state, fresh_road=fresh)
         while plan.at < phase.end:
             length, stop = control.trial(plan, phase.longest(plan.at), phase.end)
             attempt, left = self._attempt(phase, plan, stop)

@@ -42,17 +42,16 @@ def sliding_means(history: pd.DataFrame) -> dict[str, float]:
 
 
 def steady_share(history: pd.DataFrame, part: str, whole: str) -> float:
-    """Share of one energy in another over the second half of the sliding distance [-].
+    """Share of one energy in another while sliding over the second half of the distance [-].
 
     The first half holds the onset of sliding, in which the block takes up its deformation.
     """
     if history.empty or not history["sliding_distance_mm"].iloc[-1] > 0.0:
         return 0.0
-    half = 0.5 * history["sliding_distance_mm"].iloc[-1]
-    late = history[history["sliding_distance_mm"] >= half]
-    first = history[history["sliding_distance_mm"] < half].iloc[-1:]
-    span = pd.concat([first, late])[[part, whole]]
-    change = span.iloc[-1] - span.iloc[0]
+    distance = history["sliding_distance_mm"]
+    late = (distance.diff().fillna(distance) > 0.0) & (distance >= 0.5 * distance.iloc[-1])
+    energies = history[[part, whole]]
+    change = energies.diff().fillna(energies)[late].sum()
     return share(float(change[part]), float(change[whole]))
 
 
@@ -84,7 +83,8 @@ def lag_share(history: pd.DataFrame) -> float:
 
 def heat_error(heat: HeatState) -> float:
     """Imbalance of the heat relative to what was turned over [-]."""
-    return balance_error(heat.generated, heat.in_block, heat.in_road, heat.radiated, heat.left)
+    lost = heat.radiated + heat.convected
+    return balance_error(heat.generated, heat.in_block, heat.in_road, lost, heat.left)
 
 
 def layer_errors(history: pd.DataFrame, heat: HeatModel) -> dict[str, float]:
@@ -93,12 +93,17 @@ def layer_errors(history: pd.DataFrame, heat: HeatModel) -> dict[str, float]:
     The block's surface is heated during all of the slide, a point of the road while the contact
     passes over it. Either is judged by its cells and by the sub-steps of the heat.
     """
-    slide = history[history["sliding_distance_mm"] > 0.0] if len(history) else history
-    if slide.empty:
+    if history.empty or not history["sliding_distance_mm"].iloc[-1] > 0.0:
         return {"heat_layer_error": 0.0, "road_layer_error": 0.0}
-    before = history["time_s"].shift(fill_value=0.0)[slide.index[0]]
-    time, distance = slide["time_s"].iloc[-1] - before, slide["sliding_distance_mm"].iloc[-1]
-    step = _longest_heat_step(slide["sliding_distance_mm"], heat.heat_step_mm)
+    moved = history["sliding_distance_mm"].diff().fillna(history["sliding_distance_mm"])
+    slide = history[moved > 0.0]
+    if "contact" in history:
+        # Heated anew in every contact: the shortest of them has the thinnest layer.
+        one = slide.groupby("contact")["time_s"].agg(np.ptp).idxmin()
+        slide = slide[slide["contact"] == one]
+    dt = history["time_s"].diff().fillna(history["time_s"])
+    time, distance = float(dt[slide.index].sum()), float(moved[slide.index].sum())
+    step = _longest_heat_step(moved[slide.index], heat.heat_step_mm)
     passed = min(float(slide["contact_length_mm"].iloc[-1]), distance)
     block, road = heat.block.rubber, heat.road
     return {
@@ -111,10 +116,11 @@ def layer_errors(history: pd.DataFrame, heat: HeatModel) -> dict[str, float]:
     }
 
 
-def _longest_heat_step(distance: pd.Series, heat_step_mm: float) -> float:
-    """Longest sub-step of the heat [mm] in the second half of the slide."""
-    steps = distance.diff().fillna(distance)[distance > 0.5 * distance.iloc[-1]].to_numpy()
-    return float(np.max(steps / np.ceil(steps / heat_step_mm - 1e-9)))
+def _longest_heat_step(steps: pd.Series, heat_step_mm: float) -> float:
+    """Longest sub-step of the heat [mm] in the second half of a slide of these steps."""
+    distance = steps.cumsum()
+    late = steps[distance > 0.5 * distance.iloc[-1]].to_numpy()
+    return float(np.max(late / np.ceil(late / heat_step_mm - 1e-9)))
 
 
 def closing_lines(outcome: Outcome, warnings: list[str]) -> list[str]:

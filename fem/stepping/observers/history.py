@@ -17,6 +17,8 @@ from fem.results.surface_profile import excess_area, interior_peak
 from fem.stepping.audit import EnergyAudit, EnergyAuditor
 from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
 from fem.stepping.moment import Moment
+from fem.stepping.observers.wear import WearRecorder
+from fem.stepping.phases import Phase
 from materials.arrays import FloatArray
 
 
@@ -30,11 +32,14 @@ class HistoryRecorder:
     model : CoupledModel
         For mesh and strains.
     audit : EnergyAuditor
-        Sees each step before.
+    wear : WearRecorder
+        See each step before.
     """
 
-    def __init__(self, case: Case, model: CoupledModel, audit: EnergyAuditor) -> None:
-        self.case, self.model, self.audit = case, model, audit
+    def __init__(
+        self, case: Case, model: CoupledModel, audit: EnergyAuditor, wear: WearRecorder
+    ) -> None:
+        self.case, self.model, self.audit, self.wear = case, model, audit, wear
         self.rows: list[dict[str, Any]] = []
         self.smallest_J = np.inf
 
@@ -59,7 +64,18 @@ class HistoryRecorder:
         row |= {"self_contact_penetration": step.penetration}
         row |= {"sticking_nodes": int(status.sticking.sum())}
         row |= {"slipping_nodes": int(status.slipping.sum())}
-        self.rows.append(row | self._window_columns(step, strains))
+        row |= self._window_columns(step, strains)
+        self.rows.append(row | self._event_columns(moment.phase))
+
+    def _event_columns(self, phase: Phase) -> dict[str, float]:
+        """Where in an event of phases the step is, and what wore off."""
+        row: dict[str, float] = {}
+        if self.case.loading.phase:
+            row |= {"phase": phase.number, "contact": phase.contact}
+            row |= {"mean_pressure_N_per_mm2": phase.pressure}
+        if self.wear.law.coefficient > 0.0:
+            row |= {"wear_volume_mm3_per_mm": self.wear.wear.volume}
+        return row
 
     def _window_columns(self, step: AcceptedStep, strains: Strains) -> dict[str, float]:
         """Shares outside the ranges that the laws of the case were fitted to."""
@@ -96,7 +112,7 @@ class HistoryRecorder:
         contact = state.contact
         # The length of an open node is 0, and so is its shear force.
         shear = contact.shear / np.maximum(contact.length, 1e-300)
-        return boundary_table(
+        table = boundary_table(
             self.mesh,
             state.mechanics.u,
             state.heat.T,
@@ -105,6 +121,10 @@ class HistoryRecorder:
                 slip_velocity=contact.slip_velocity,
             ),
         )  # fmt: skip
+        if self.wear.law.coefficient == 0.0:
+            return table
+        wear = self.wear.wear
+        return table.assign(wear_energy_mJ_per_mm2=wear.energy, wear_depth_um=1e3 * wear.depth)
 
 
 def temperature_columns(mesh: BlockMesh, T_C: FloatArray, ambient_C: float) -> dict[str, float]:
@@ -141,4 +161,5 @@ def energy_columns(audit: EnergyAudit, state: CoupledState) -> dict[str, float]:
         "heat_in_rubber_mJ_per_mm": heat.in_block,
         "heat_in_road_mJ_per_mm": heat.in_road + heat.left,
         "radiated_mJ_per_mm": heat.radiated,
+        "convected_mJ_per_mm": heat.convected,
     }

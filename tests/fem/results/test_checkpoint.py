@@ -13,6 +13,7 @@ import fem.results.checkpoint
 from fem import Case
 from fem.results.checkpoint import (
     COST_SHARE,
+    FORMAT,
     Checkpoint,
     CheckpointError,
     notes,
@@ -87,7 +88,7 @@ def test_one_of_another_program_version_is_refused(path, monkeypatch):
 
 def test_one_of_another_format_is_refused(path, monkeypatch):
     monkeypatch.setattr(fem.results.checkpoint, "FORMAT", 9)
-    assert refusal(path).startswith("format: found 4, expected 9")
+    assert refusal(path).startswith(f"format: found {FORMAT}, expected 9")
 
 
 def test_one_with_other_content_is_refused(path):
