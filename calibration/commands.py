@@ -10,7 +10,7 @@ from typing import Any, get_args
 from calibration.conductance.fit import ALSO
 from calibration.data.errors import DataError
 from calibration.fitting.progress import watched
-from calibration.friction.curves import LAWS
+from calibration.friction.curves import forms
 from calibration.outcomes import (
     PARAMETERS_FILE,
     Outcome,
@@ -204,7 +204,7 @@ def _given(**options: Any) -> dict[str, Any]:
 
 
 def _add_friction(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--law", choices=LAWS, default="huemer")
+    parser.add_argument("--law", choices=forms(), default="huemer")
     parser.add_argument(
         "--wlf", choices=("none", "given", "fit"), default="none",
         help="shift of the speed by T_C: none, with --d1 and --d2, or fitted together",

@@ -9,10 +9,13 @@ from contact.friction import (
     ThermalFriction,
     shifted,
 )
+from contact.interface import InterfaceState
 from contact.partition import HeatPartition
+from contact.registry import FRICTION_LAWS, friction_law, parameter
 from contact.wear import EnergyWear
 
 __all__ = [
+    "FRICTION_LAWS",
     "CoulombFriction",
     "EnergyWear",
     "ExponentialFriction",
@@ -20,6 +23,9 @@ __all__ = [
     "GapConductance",
     "HeatPartition",
     "HuemerFriction",
+    "InterfaceState",
     "ThermalFriction",
+    "friction_law",
+    "parameter",
     "shifted",
 ]

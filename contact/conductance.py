@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from contact.interface import InterfaceState
 from materials.arrays import FloatArray
 from materials.checks import require_finite, require_not_negative, require_positive
 
@@ -59,6 +60,10 @@ class GapConductance:
         pressure = np.maximum(np.asarray(p, dtype=float), 0.0) / self.p_ref
         h = np.where(pressure > 0.0, self.h_ref * pressure**self.exponent, 0.0)
         return h * self.stiffening(v) ** -self.exponent
+
+    def at(self, state: InterfaceState) -> FloatArray:
+        """Conductance h [W/(m^2 K)] at a state of the interface."""
+        return self.conductance(state.p, state.v)
 
     def stiffening(self, v: ArrayLike) -> FloatArray:
         """Ratio ``E1(v)/E1(0)`` [-] at speed v [mm/s]."""

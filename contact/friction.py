@@ -13,37 +13,21 @@ References
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from contact.interface import InterfaceState
+from contact.registry import friction_law, parameter
 from materials.arrays import FloatArray
 from materials.checks import require_finite, require_not_negative, require_positive
 from materials.wlf import WLF
 
 
-class FrictionCoefficient(NamedTuple):
-    """Friction coefficient [-] with its derivatives [mm^2/N] and [s/mm]."""
-
-    mu: FloatArray
-    dmu_dp: FloatArray
-    dmu_dv: FloatArray
-
-
-class ThermalFrictionCoefficient(NamedTuple):
-    """Friction coefficient [-] with its derivatives [mm^2/N], [s/mm] and [1/K]."""
-
-    mu: FloatArray
-    dmu_dp: FloatArray
-    dmu_dv: FloatArray
-    dmu_dT: FloatArray
-
-
 @dataclass(frozen=True, kw_only=True)
 class FrictionLaw(ABC):
-    """Base of the laws mu(p, v).
+    """Base of the laws of the friction coefficient.
 
     Parameters
     ----------
@@ -55,7 +39,8 @@ class FrictionLaw(ABC):
     Notes
     -----
     Both laws of the paper diverge weakly for p -> 0 and vanish for v -> 0, neither of which is
-    meant; hence the floors. The derivative with respect to a floored quantity is zero.
+    meant; hence the floors. A law of one's own is a class below this with `_mu`, registered by
+    `contact.registry.friction_law`.
     """
 
     p_min: float = 1e-3
@@ -65,33 +50,23 @@ class FrictionLaw(ABC):
         require_positive(p_min=self.p_min, v_min=self.v_min)
 
     @abstractmethod
-    def _law(self, p: FloatArray, v: FloatArray) -> FrictionCoefficient:
-        """Law and derivatives at pressures and speeds that are at or above the floors."""
+    def _mu(self, at: InterfaceState) -> FloatArray:
+        """Coefficient [-] at pressures and speeds (arrays) that are at or above the floors."""
 
     def coefficient(self, p: ArrayLike, v: ArrayLike) -> FloatArray:
         """Friction coefficient [-] at pressure p [N/mm^2] and velocity v [mm/s] (broadcast)."""
-        return self.evaluate(p, v).mu
+        return self.at(InterfaceState(p=p, v=v))
 
-    def evaluate(self, p: ArrayLike, v: ArrayLike) -> FrictionCoefficient:
-        """Friction coefficient with its derivatives.
-
-        Parameters
-        ----------
-        p : array_like
-            Contact pressure [N/mm^2].
-        v : array_like
-            Sliding velocity [mm/s]; its sign does not matter to mu.
-        """
-        p, v = np.broadcast_arrays(np.asarray(p, dtype=float), np.asarray(v, dtype=float))
-        speed = np.abs(v)
-        law = self._law(np.maximum(p, self.p_min), np.maximum(speed, self.v_min))
-        return FrictionCoefficient(
-            mu=law.mu,
-            dmu_dp=np.where(p > self.p_min, law.dmu_dp, 0.0),
-            dmu_dv=np.where(speed > self.v_min, law.dmu_dv * np.sign(v), 0.0),
+    def at(self, state: InterfaceState) -> FloatArray:
+        """Friction coefficient [-] at a state of the interface; the sign of v does not matter."""
+        p, v = np.broadcast_arrays(
+            np.asarray(state.p, dtype=float), np.asarray(state.v, dtype=float)
         )
+        p, v = np.maximum(p, self.p_min), np.maximum(np.abs(v), self.v_min)
+        return np.asarray(self._mu(replace(state, p=p, v=v)))
 
 
+@friction_law("coulomb", label="Coulomb's law", fitted=False)
 @dataclass(frozen=True, kw_only=True)
 class CoulombFriction(FrictionLaw):
     """Constant coefficient, ``mu = constant``.
@@ -107,16 +82,17 @@ class CoulombFriction(FrictionLaw):
     0.3
     """
 
-    mu: float
+    mu: float = parameter("Coulomb's constant friction coefficient [-]", low=0.0)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         require_not_negative(mu=self.mu)
 
-    def _law(self, p: FloatArray, v: FloatArray) -> FrictionCoefficient:
-        return FrictionCoefficient(np.full(p.shape, self.mu), np.zeros(p.shape), np.zeros(p.shape))
+    def _mu(self, at: InterfaceState) -> FloatArray:
+        return np.full(np.shape(at.p), self.mu)
 
 
+@friction_law("exponential", label="Exponential law (5)")
 @dataclass(frozen=True, kw_only=True)
 class ExponentialFriction(FrictionLaw):
     """Power law ``mu = A p^B v^C``, eq. (5).
@@ -133,20 +109,25 @@ class ExponentialFriction(FrictionLaw):
     0.973
     """
 
-    A: float = 0.7064
-    B: float = -0.0645
-    C: float = 0.0425
+    A: float = parameter("exponential law, factor", 0.7064, low=1e-9)
+    B: float = parameter(
+        "exponential law, exponent of the pressure [-]", -0.0645, low=-5.0, high=5.0
+    )
+    C: float = parameter(
+        "exponential law, exponent of the velocity [-]", 0.0425, low=-5.0, high=5.0
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
         require_positive(A=self.A)
         require_finite(B=self.B, C=self.C)
 
-    def _law(self, p: FloatArray, v: FloatArray) -> FrictionCoefficient:
-        mu = self.A * p**self.B * v**self.C
-        return FrictionCoefficient(mu, self.B * mu / p, self.C * mu / v)
+    def _mu(self, at: InterfaceState) -> FloatArray:
+        p, v = np.asarray(at.p), np.asarray(at.v)
+        return self.A * p**self.B * v**self.C
 
 
+@friction_law("huemer", label="Law by Huemer (6)")
 @dataclass(frozen=True, kw_only=True)
 class HuemerFriction(FrictionLaw):
     """Law of Huemer et al. [2]_, eq. (6), with a peak over the sliding speed.
@@ -173,13 +154,17 @@ class HuemerFriction(FrictionLaw):
     26.5
     """
 
-    alpha: float = 0.1399
-    beta: float = 0.4091
-    n: float = 0.8680
-    a: float = 0.9203
-    b: float = -1.1188
-    c: float = 0.9677
-    inverse_m: float = 0.1672
+    alpha: float = parameter("Huemer, factor of p^(n-1)", 0.1399)
+    beta: float = parameter("Huemer, pressure-independent part [-]", 0.4091)
+    n: float = parameter(
+        "Huemer, exponent of the pressure plus one [-]", 0.8680, low=-5.0, high=5.0
+    )
+    a: float = parameter("Huemer, denominator, constant [-]", 0.9203)
+    b: float = parameter("Huemer, denominator, factor of v^(-1/m)", -1.1188)
+    c: float = parameter("Huemer, denominator, factor of v^(-2/m)", 0.9677)
+    inverse_m: float = parameter(
+        "Huemer, 1/m, exponent of the velocity [-]", 0.1672, low=-5.0, high=5.0
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -206,15 +191,13 @@ class HuemerFriction(FrictionLaw):
         # s = 0 is reached only for infinite speed, so a = 0 is refused as well
         return min(self.a + self.b * s + self.c * s * s for s in at)
 
-    def _law(self, p: FloatArray, v: FloatArray) -> FrictionCoefficient:
+    def _mu(self, at: InterfaceState) -> FloatArray:
+        p, v = np.asarray(at.p), np.asarray(at.v)
         s = v**-self.inverse_m
         pressure_part = self.alpha * p ** (self.n - 1.0)
         numerator = pressure_part + self.beta
         inverse = 1.0 / (self.a + s * (self.b + s * self.c))
-        mu = numerator * inverse
-        dmu_dp = (self.n - 1.0) * pressure_part / p * inverse
-        dmu_ds = -mu * inverse * (self.b + 2.0 * self.c * s)
-        return FrictionCoefficient(mu, dmu_dp, dmu_ds * (-self.inverse_m) * s / v)
+        return np.asarray(numerator * inverse)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -275,19 +258,18 @@ class ThermalFriction:
 
     def coefficient(self, p: ArrayLike, v: ArrayLike, T_C: ArrayLike) -> FloatArray:
         """Friction coefficient [-] at p [N/mm^2], v [mm/s] and T_C [deg C] (broadcast)."""
-        return self.evaluate(p, v, T_C).mu
+        return self.at(InterfaceState(p=p, v=v, T_C=T_C))
 
-    def evaluate(self, p: ArrayLike, v: ArrayLike, T_C: ArrayLike) -> ThermalFrictionCoefficient:
-        """Friction coefficient with its derivatives at p [N/mm^2], v [mm/s], T_C [deg C]."""
+    def at(self, state: InterfaceState) -> FloatArray:
+        """Friction coefficient [-] at a state of the interface."""
         p, v, T = np.broadcast_arrays(
-            np.asarray(p, dtype=float), np.asarray(v, dtype=float), np.asarray(T_C, dtype=float)
+            np.asarray(state.p, dtype=float),
+            np.asarray(state.v, dtype=float),
+            np.asarray(state.T_C, dtype=float),
         )
-        if self.wlf is None:
-            return ThermalFrictionCoefficient(*self.law.evaluate(p, v), np.zeros(p.shape))
-        shift = self.wlf.equivalent_velocity(1.0, T, self.T_ref_C)
-        mu, dmu_dp, dmu_dv_equ = self.law.evaluate(p, v * shift)
-        dv_equ_dT = self.wlf.dequivalent_velocity_dT(v, T, self.T_ref_C)
-        return ThermalFrictionCoefficient(mu, dmu_dp, dmu_dv_equ * shift, dmu_dv_equ * dv_equ_dT)
+        if self.wlf is not None:
+            v = v * self.wlf.equivalent_velocity(1.0, T, self.T_ref_C)
+        return self.law.at(replace(state, p=p, v=v))
 
 
 def shifted(law: FrictionLaw, wlf: WLF | None, T_ref_C: float = 20.0) -> ThermalFriction:

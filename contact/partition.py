@@ -16,8 +16,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
+from contact.interface import InterfaceState
 from materials.arrays import FloatArray
 from materials.checks import (
     require_between,
@@ -71,20 +72,21 @@ class HeatPartition:
         """Partition kappa [-] at the pressure p [N/mm^2]."""
         return np.minimum(self.uncapped(p), self.cap)
 
-    def governing(self, p: ArrayLike, mean: float) -> FloatArray:
-        """Pressure that enters the law at points of a contact [N/mm^2].
+    def at(self, state: InterfaceState) -> FloatArray:
+        """Partition kappa [-] at a state of the interface."""
+        return self(self.governing(state))
 
-        Parameters
-        ----------
-        p : (n,) array_like
-            Pressure of the points [N/mm^2].
-        mean : float
-            Mean contact pressure [N/mm^2].
-        """
-        p = np.asarray(p, dtype=float)
+    def capped(self, state: InterfaceState) -> NDArray[np.bool_]:
+        """Where the cap holds."""
+        return self.uncapped(self.governing(state)) > self.cap
+
+    def governing(self, state: InterfaceState) -> FloatArray:
+        """Pressure that enters the law at points of a contact [N/mm^2]."""
+        p = np.asarray(state.p, dtype=float)
         if self.pressure == "local":
             return p
-        return np.full_like(p, mean if self.pressure == "mean" else float(self.pressure))
+        mean = state.mean_pressure if self.pressure == "mean" else float(self.pressure)
+        return np.broadcast_to(np.asarray(mean, dtype=float), p.shape)
 
     def uncapped(self, p: ArrayLike) -> FloatArray:
         """Partition of eq. (14) without the cap [-]; huge, not infinite, at zero pressure."""

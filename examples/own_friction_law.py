@@ -1,45 +1,33 @@
-"""A friction law of your own: a class with mu(p, v) and its derivatives, and a slide with it.
+"""A friction law of your own: a registered class with mu, and a slide with it.
 
 Leaves results/own_law and `law.png` in it.
 """
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from contact import FrictionLaw
-from contact.friction import FrictionCoefficient
+from contact import FrictionLaw, friction_law, parameter
 from fem import Case, simulate
-from fem.case.friction import Friction
 
 
+@friction_law("logarithmic", label="logarithmic law")
 @dataclass(frozen=True, kw_only=True)
 class Logarithmic(FrictionLaw):
-    """mu = mu_1 + k ln(v), v in mm/s: friction that rises by k ln 10 per decade of speed."""
+    """Friction that rises by k ln 10 per decade of speed: mu_1 + k ln(v), v in mm/s."""
 
-    mu_1: float = 0.5
-    k: float = 0.05
+    mu_1: float = parameter("coefficient at 1 mm/s [-]", 0.5, low=0.0)
+    k: float = parameter("growth with the logarithm of the speed [-]", 0.05, low=-1.0, high=1.0)
 
-    def _law(self, p, v):
-        mu = self.mu_1 + self.k * np.log(v) + 0.0 * p
-        return FrictionCoefficient(mu, dmu_dp=0.0 * p, dmu_dv=self.k / v + 0.0 * p)
-
-
-class OwnFriction(Friction):
-    law: Literal["logarithmic"] = "logarithmic"
-
-    def plain_law(self):
-        return Logarithmic(p_min=self.p_min_N_per_mm2, v_min=self.v_min_mm_per_s)
+    def _mu(self, at):  # at.p, at.v, at.T_C, at.T_road_C, at.mean_pressure, at.slip
+        return self.mu_1 + self.k * np.log(at.v)
 
 
-class OwnCase(Case):
-    friction: OwnFriction = OwnFriction()
-
-
-case = OwnCase.from_toml(Path(__file__).with_name("short.toml"))
+case = Case.from_toml(
+    Path(__file__).with_name("short.toml"), {"friction.law": "logarithmic", "friction.k": 0.04}
+)
 result = simulate(case)
 print(f"friction coefficient {result.history['friction_coefficient'].iloc[-1]:.3f} at the end")
 result.write("results/own_law")

@@ -7,7 +7,6 @@ References
    applications", eqs. (7)-(8), Table 3.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,12 +61,6 @@ class WLF:
             Temperature of the surface and reference temperature [deg C].
         """
         return np.asarray(v, dtype=float) * 10.0 ** self.log10_shift_factor(T_C, T_ref_C)
-
-    def dequivalent_velocity_dT(self, v: ArrayLike, T_C: ArrayLike, T_ref_C: float) -> FloatArray:
-        """Derivative of `equivalent_velocity` with respect to T_C [mm/(s K)]."""
-        _, shifted = self._distance(T_C, T_ref_C)
-        slope = -math.log(10.0) * self.d1 * self.d2_K / shifted**2
-        return self.equivalent_velocity(v, T_C, T_ref_C) * slope
 
     def rebased(self, T_old_C: float, T_new_C: float) -> "WLF":
         """Constants of the same shift for another reference temperature.

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 import treadfem
+from contact import FRICTION_LAWS
 from fem.case.case import Case
-from fem.case.friction import LAWS
 from fem.case.rubber import CONSTANTS
 from fem.results.columns import BOUNDARY, HISTORY, SUMMARY, SURFACE
 from fem.results.snapshot import Snapshot
@@ -106,5 +106,5 @@ def test_arrays_of_the_field_file_are_listed():
 
 def test_theory_names_every_model_and_law():
     theory = (ROOT / "docs/theory.md").read_text(encoding="utf-8").casefold()
-    words = [name.replace("-", " ") for name in (*CONSTANTS, *LAWS)]
+    words = [name.replace("-", " ") for name in (*CONSTANTS, *FRICTION_LAWS)]
     assert [word for word in words if word not in theory.replace("-", " ")] == []

@@ -10,7 +10,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from contact import FRICTION_LAWS
 from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction
+from contact.registry import RegisteredLaw
 from materials.arrays import FloatArray
 
 HUEMER_SCALE = 0.9203  # Table 2's a, the normalisation of the fit
@@ -111,4 +113,58 @@ class _Huemer(FrictionCurve):
         return HuemerFriction(**values, **floors)
 
 
-LAWS: dict[str, FrictionCurve] = {"exponential": _Exponential(), "huemer": _Huemer()}
+class _AnyLaw(FrictionCurve):
+    """A law by its class alone: differences for the derivatives, starts about its defaults."""
+
+    def __init__(self, law: RegisteredLaw) -> None:
+        self.law = law
+        self.names = tuple(one.name for one in law.parameters)
+        self.lower = tuple(one.low for one in law.parameters)
+        self.upper = tuple(one.high for one in law.parameters)
+
+    def curve(
+        self, theta: FloatArray, p: FloatArray, v: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        steps = _STEP * np.maximum(np.abs(theta), 1e-3)
+        J = np.empty((p.size, theta.size))
+        for k, step in enumerate(steps):
+            ends = [
+                np.clip(theta[k] + sign * step, self.lower[k], self.upper[k]) for sign in (1, -1)
+            ]
+            up, down = (self._mu(np.where(np.arange(theta.size) == k, end, theta), p, v)
+                        for end in ends)  # fmt: skip
+            J[:, k] = (up - down) / (ends[0] - ends[1])
+        faster, slower = (self._mu(theta, p, v * np.exp(sign * _STEP)) for sign in (1, -1))
+        return self._mu(theta, p, v), J, (faster - slower) / (2.0 * _STEP)
+
+    def starts(self, p: FloatArray, v: FloatArray, mu: FloatArray, count: int) -> FloatArray:
+        middle = np.array(
+            [1.0 if one.default is None else one.default for one in self.law.parameters]
+        )
+        spread = np.random.default_rng(0).normal(0.0, 1.0, (count - 1, middle.size))
+        spread = np.vstack([np.zeros(middle.size), spread])
+        points = np.where(middle == 0.0, 0.1 * spread, middle * np.exp(spread))
+        return np.clip(points, self.lower, self.upper)
+
+    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
+        law: FrictionLaw = self.law.kind(**values, **floors)
+        return law
+
+    def _mu(self, theta: FloatArray, p: FloatArray, v: FloatArray) -> FloatArray:
+        values = dict(zip(self.names, map(float, theta), strict=True))
+        return self.build(values, p_min=_NO_FLOOR, v_min=_NO_FLOOR).coefficient(p, v)
+
+
+#: Relative step of the differences.
+_STEP = 1e-6
+#: Below all data.
+_NO_FLOOR = 1e-12
+#: Laws with derivatives and starts of their own.
+_OWN: dict[str, FrictionCurve] = {"exponential": _Exponential(), "huemer": _Huemer()}
+
+
+def forms() -> dict[str, FrictionCurve]:
+    """The laws that can be fitted, as curves of their parameters."""
+    return {
+        name: _OWN.get(name) or _AnyLaw(law) for name, law in FRICTION_LAWS.items() if law.fitted
+    }

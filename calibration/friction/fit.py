@@ -17,7 +17,7 @@ import pandas as pd
 from calibration.data.errors import DataError
 from calibration.fitting.core import FitResult, Loss, Problem, fit, refuse_no_fit
 from calibration.fitting.progress import stage
-from calibration.friction.curves import HUEMER_SCALE, LAWS, FrictionCurve
+from calibration.friction.curves import HUEMER_SCALE, FrictionCurve, forms
 from calibration.friction.data import FrictionData, read_friction
 from contact.friction import FrictionLaw, shifted
 from fem.files import version_of
@@ -49,7 +49,8 @@ def fit_friction(
     ----------
     table : DataFrame or path of a CSV file
         Columns ``p_N_per_mm2``, ``v_mm_per_s``, ``mu`` and optionally ``T_C``.
-    law : {"huemer", "exponential"}
+    law : str
+        "huemer", "exponential", or another one that has been registered.
     wlf : WLF, "fit" or None
         Shift of the speed by the temperature: given, fitted together with the law (needs
         ``T_C`` at several temperatures), or none.
@@ -76,9 +77,9 @@ def fit_friction(
     >>> round(fit.r2, 2)
     1.0
     """
-    if law not in LAWS:
-        raise ValueError(f"law is {law!r}; expected one of {', '.join(LAWS)}")
-    data, form = read_friction(table), LAWS[law]
+    if law not in forms():
+        raise ValueError(f"law is {law!r}; expected one of {', '.join(forms())}")
+    data, form = read_friction(table), forms()[law]
     held = form.with_scale(dict(fixed or {}))
     _require_data(data, form, law, wlf, held)
     fit_shift = wlf == "fit"
@@ -280,7 +281,7 @@ def _data_warnings(data: FrictionData, wlf: WLF | None) -> tuple[str, ...]:
 
 def compare_laws(
     table: pd.DataFrame | str | Path | FrictionData,
-    laws: tuple[str, ...] = tuple(LAWS),
+    laws: tuple[str, ...] | None = None,
     **options: Any,
 ) -> pd.DataFrame:
     """Fit several laws to the same data.
@@ -294,7 +295,7 @@ def compare_laws(
     """
     data = read_friction(table)
     found, refused = {}, {}
-    for law in laws:
+    for law in forms() if laws is None else laws:
         stage(f"comparing with {law}")
         try:
             found[law] = fit_friction(data, law, **options)
@@ -317,7 +318,13 @@ def compare_laws(
     ]
     nothing = dict.fromkeys(("rmse", "r2", "aic", "mu_largest_difference"), np.nan)
     rows += [
-        {"law": law, "parameters": len(LAWS[law].names), "n_data": 0, **nothing, "reason": reason}
+        {
+            "law": law,
+            "parameters": len(forms()[law].names),
+            "n_data": 0,
+            **nothing,
+            "reason": reason,
+        }
         for law, reason in refused.items()
     ]
     return pd.DataFrame(rows).sort_values("aic", na_position="last").reset_index(drop=True)

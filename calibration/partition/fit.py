@@ -156,7 +156,7 @@ def _check_case(case: Case) -> None:
             found=f"{case.heat.partition.pressure:g}",
             expected='"mean" or "local": with one fixed pressure the law has no exponent to fit',
         )  # fmt: skip
-    if case.friction.law == "coulomb" and case.friction.mu == 0.0:
+    if case.friction.law == "coulomb" and case.friction.constants.get("mu") == 0.0:
         raise CaseError(
             file=case.source, key="friction.mu", found="0", expected="friction, which makes heat"
         )

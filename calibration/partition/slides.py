@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from calibration.partition.data import Condition
 from calibration.partition.simulation_store import SimulationStore, Slide
+from contact.interface import InterfaceState
 from contact.partition import HeatPartition
 from fem.case import Case
 from fem.results import EDGE_ZONE, interior_peak
@@ -106,8 +107,9 @@ class Conditioned:
         p, touching = self.slide.pressure, self.slide.pressure > 0.0
         ratio = np.ones_like(p)
         mean = self.contact_pressure
-        new = law(law.governing(scale * p[touching], scale * mean))
-        ratio[touching] = scale * new / self.law(self.law.governing(p[touching], mean))
+        stated = InterfaceState(p=scale * p[touching], mean_pressure=scale * mean)
+        simulated = InterfaceState(p=p[touching], mean_pressure=mean)
+        ratio[touching] = scale * law.at(stated) / self.law.at(simulated)
         # Points that have left the road since then: as the others, on average.
         ratio[~touching] = ratio[touching].mean() if touching.any() else 1.0
         return self._observations(ratio)
@@ -134,7 +136,7 @@ class Conditioned:
     def capped_share(self, law: HeatPartition) -> float:
         """Share of the contact force where the law is capped [-]."""
         p = self.slide.pressure
-        capped = law.uncapped(law.governing(p, self.contact_pressure)) > law.cap
+        capped = law.capped(InterfaceState(p=p, mean_pressure=self.contact_pressure))
         return float(p[capped].sum() / max(float(p.sum()), 1e-12))
 
     def _observations(self, ratio: FloatArray) -> FloatArray:

@@ -7,7 +7,6 @@ from fem.files.faces import face
 if TYPE_CHECKING:
     from fem.case.case import Case, Solver
     from fem.case.errors import CaseError, describe, suggestion
-    from fem.case.friction import LAWS
     from fem.case.reading import parse_override, read_toml
     from fem.case.rubber import CONSTANTS, DEFAULT_COMPOUND
     from fem.case.sections import MOST_PASSES, MeshSpec

@@ -17,7 +17,7 @@ import numpy as np
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from fem.case.base import Section, refuse, refuse_finding
-from fem.case.friction import Friction
+from fem.case.friction import Friction, enter_laws
 from fem.case.heat import Heat
 from fem.case.loading import Loading
 from fem.case.reading import Source, apply_overrides, read_toml
@@ -182,6 +182,7 @@ class Case(Section):
 
     @classmethod
     def _from_source(cls, source: Source, overrides: Mapping[str, Any] | None) -> Case:
+        enter_laws(Case)
         apply_overrides(source, dict(overrides or {}))
         refuse_unknown_keys(source, cls)
         try:

@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
+from pydantic.fields import FieldInfo
 
-from contact.friction import (
-    CoulombFriction,
-    ExponentialFriction,
-    FrictionLaw,
-    HuemerFriction,
-    ThermalFriction,
-)
+from contact.friction import FrictionLaw, ThermalFriction
+from contact.registry import FRICTION_LAWS
 from fem.case.base import (
     Celsius,
-    Constant,
-    Exponent,
-    Factor,
     NotNegative,
     Positive,
     Section,
@@ -39,48 +31,28 @@ _PressureFloor = Annotated[Positive, Field(ge=1e-9, le=10.0)]
 _Memory = Annotated[NotNegative, Field(le=100.0)]
 _SpeedFloor = Annotated[Positive, Field(ge=1e-9, le=1e5)]
 
-LAW_CLASSES: dict[str, type[FrictionLaw]] = {
-    "huemer": HuemerFriction,
-    "exponential": ExponentialFriction,
-    "coulomb": CoulombFriction,
-}
+DEFAULT_LAW = "huemer"
+#: Key of the case that the parameters of the laws stand behind.
+_LAW = "law"
 
 
-def _parameters(law: type[FrictionLaw]) -> dict[str, float | None]:
-    """Parameters of a law with their defaults (None: must be given), floors left out."""
-    floors = {item.name for item in dataclasses.fields(FrictionLaw)}
+def laws() -> dict[str, dict[str, float | None]]:
+    """Parameters of each law with their defaults; None: must be given."""
     return {
-        item.name: None if item.default is dataclasses.MISSING else item.default
-        for item in dataclasses.fields(law)
-        if item.name not in floors
+        name: {one.name: one.default for one in law.parameters}
+        for name, law in FRICTION_LAWS.items()
     }
 
 
-#: Parameters of each law with the paper's Table 2 as defaults.
-LAWS = {name: _parameters(law) for name, law in LAW_CLASSES.items()}
-ALL_PARAMETERS = tuple(key for law in LAWS.values() for key in law)
-DEFAULT_LAW = "huemer"
+def all_parameters() -> tuple[str, ...]:
+    """Names of the parameters of all laws."""
+    return tuple(dict.fromkeys(key for law in laws().values() for key in law))
 
 
 class Friction(Section):
     """Friction between the block and the road (p in N/mm^2, v in mm/s)."""
 
-    law: Literal["huemer", "exponential", "coulomb"] = Field(
-        "huemer", description='"huemer", eq. (6); "exponential", eq. (5); "coulomb"'
-    )
-    alpha: Constant | None = Field(None, description="Huemer, factor of p^(n-1)")
-    beta: Constant | None = Field(None, description="Huemer, pressure-independent part [-]")
-    n: Exponent | None = Field(None, description="Huemer, exponent of the pressure plus one [-]")
-    inverse_m: Exponent | None = Field(
-        None, description="Huemer, 1/m, exponent of the velocity [-]"
-    )
-    a: Constant | None = Field(None, description="Huemer, denominator, constant [-]")
-    b: Constant | None = Field(None, description="Huemer, denominator, factor of v^(-1/m)")
-    c: Constant | None = Field(None, description="Huemer, denominator, factor of v^(-2/m)")
-    A: Factor | None = Field(None, description="exponential law, factor")
-    B: Exponent | None = Field(None, description="exponential law, exponent of the pressure [-]")
-    C: Exponent | None = Field(None, description="exponential law, exponent of the velocity [-]")
-    mu: _Mu = Field(None, description="Coulomb's constant friction coefficient [-]")
+    law: str = DEFAULT_LAW  # its type and the parameters are entered from the registry, below
     wlf: bool = Field(True, description="shift the velocity with the surface temperature, eq. (7)")
     d1: _D1 = Field(43.1, description="WLF constant [-]")
     d2_K: _D2 = Field(509.4, description="WLF constant [K]")
@@ -108,16 +80,17 @@ class Friction(Section):
         if not isinstance(data, dict):
             return data
         law = data.get("law", DEFAULT_LAW)
-        if not isinstance(law, str) or law not in LAWS:
+        known = laws()
+        if not isinstance(law, str) or law not in known:
             return data
-        for key in ALL_PARAMETERS:
-            if data.get(key) is not None and key not in LAWS[law]:
+        for key in all_parameters():
+            if data.get(key) is not None and key not in known[law]:
                 refuse(
                     key,
                     describe(data[key]),
-                    f'only parameters of law = "{law}": {", ".join(LAWS[law])}',
+                    f'only parameters of law = "{law}": {", ".join(known[law])}',
                 )
-        filled = {**LAWS[law], **{k: v for k, v in data.items() if v is not None}}
+        filled = {**known[law], **{k: v for k, v in data.items() if v is not None}}
         for key, value in filled.items():
             if value is None:
                 refuse(key, "nothing", f'a number: law = "{law}" needs {key}')
@@ -134,8 +107,13 @@ class Friction(Section):
     def plain_law(self) -> FrictionLaw:
         """Build the law without the temperature shift."""
         floors = {"p_min": self.p_min_N_per_mm2, "v_min": self.v_min_mm_per_s}
-        parameters = {key: getattr(self, key) for key in LAWS[self.law]}
-        return LAW_CLASSES[self.law](**parameters, **floors)
+        plain: FrictionLaw = FRICTION_LAWS[self.law].kind(**self.constants, **floors)
+        return plain
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """The parameters of the law."""
+        return {one.name: getattr(self, one.name) for one in FRICTION_LAWS[self.law].parameters}
 
     def law_object(self) -> ThermalFriction:
         """Build the law mu(p, v, T) with its WLF shift."""
@@ -166,3 +144,42 @@ class Friction(Section):
         if self.wlf_T_ref_C in (None, self.T_ref_C):
             return text
         return f"{text} (d1 = {self.d1:g}, d2 = {self.d2_K:g} K at {self.wlf_T_ref_C:g} deg C)"
+
+
+def enter_laws(*outer: type[Section]) -> None:
+    """Give the section a key for each parameter of the laws there are.
+
+    Reading a case does this if a law has been registered since; `outer` are the models that hold
+    the section.
+    """
+    names, fields = tuple(FRICTION_LAWS), Friction.__pydantic_fields__
+    wanted = Literal[names]  # type: ignore[valid-type]
+    if fields[_LAW].annotation == wanted:
+        return
+    labels = "; ".join(f'"{name}", {law.label}' for name, law in FRICTION_LAWS.items())
+    entered = {_LAW: FieldInfo(annotation=wanted, default=DEFAULT_LAW, description=labels)}
+    for law in FRICTION_LAWS.values():
+        for one in law.parameters:
+            if one.name in entered or one.name in _OWN_KEYS:
+                raise ValueError(
+                    f"parameter {one.name} of the friction law {law.name!r} is the name of another "
+                    "key of [friction]; expected another name"
+                )
+            number: Any = (
+                Annotated[float, Field(ge=one.low, le=one.high, allow_inf_nan=False)] | None
+            )
+            if one.name == "mu":
+                number = Annotated[number, Within(FRICTION)]
+            entered[one.name] = FieldInfo.from_annotated_attribute(
+                number, Field(None, description=one.description)
+            )
+    own = {name: fields[name] for name in _OWN_KEYS}
+    fields.clear()
+    fields.update(entered | own)
+    models: tuple[type[Section], ...] = (Friction, *outer)
+    for model in models:
+        model.model_rebuild(force=True)
+
+
+_OWN_KEYS = tuple(name for name in Friction.__pydantic_fields__ if name != _LAW)
+enter_laws()

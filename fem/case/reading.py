@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from fem.case.errors import CaseError, describe
-from fem.case.friction import ALL_PARAMETERS
+from fem.case.friction import all_parameters
 from fem.case.rubber import ALL_CONSTANTS
 
 #: Sections that may take a calibration's result by reference.
@@ -112,7 +112,7 @@ def expand_references(source: Source) -> None:
 def _shift_of(content: Table, own: Table, file: str, name: str) -> Table:
     """A parameter file's [friction] without what would mix the temperatures of law and shift."""
     constants = [key for key in ("d1", "d2_K") if key in content]
-    law = [key for key in ("law", *ALL_PARAMETERS) if key in content]
+    law = [key for key in ("law", *all_parameters()) if key in content]
     if "T_ref_C" in content and constants and not law:
         found = f"{describe(name)} with T_ref_C and {constants[0]} but no law"
         expected = "wlf_T_ref_C for the temperature of d1 and d2_K: T_ref_C is that of the law"
@@ -197,9 +197,9 @@ def _drop_replaced(tables: Table, dotted: str) -> None:
         "rubber.compound": ("model", "window", *ALL_CONSTANTS),
         "rubber.model": ("compound", "window", *ALL_CONSTANTS),
         "rubber.parameters": ("compound", "model", "window", *ALL_CONSTANTS),
-        "friction.law": ("window", *ALL_PARAMETERS),
+        "friction.law": ("window", *all_parameters()),
         "heat.partition.law": ("exponent",),
-        "friction.parameters": ("law", "window", *ALL_PARAMETERS),
+        "friction.parameters": ("law", "window", *all_parameters()),
     }.get(dotted, ())
     *sections, _ = dotted.split(".")
     for section in sections[:-1]:

@@ -32,7 +32,7 @@ from fem.heat.radiation import radiated_flux, radiating_length
 from fem.heat.road import RoadConduction, RoadGrid, RoadState
 from fem.heat.state import HeatLoad, HeatState, RoadField
 from fem.mesh.block import BlockMesh
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IntArray
 from materials.thermal import ThermalProperties
 
 #: Matrices of conduction that are kept at least and at most, and the nodes of all of them together.
@@ -227,6 +227,12 @@ class HeatModel:
             cells=self.road.cells(state.road),
             temperature=self.ambient_C + state.road.excess.ravel(),
         )
+
+    def road_below(self, state: HeatState, nodes: IntArray, position: float) -> FloatArray:
+        """Surface temperature of the road below nodes, at a platen displacement [mm], (m,) [C]."""
+        x = self.mesh.points[nodes, 0] + state.displacement[nodes, 0] + position
+        columns = self.road.dx * (state.road.first + np.arange(len(state.road.excess)))
+        return self.ambient_C + np.interp(x, columns, state.road.surface, left=0.0, right=0.0)
 
     # ------------------------------------------------------------------ preparation of a step
 

@@ -10,11 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from contact.active_set import ContactForces, ContactStatus
+from contact.active_set import ContactForces
 from contact.conductance import GapConductance
 from contact.friction import ThermalFriction
+from contact.interface import InterfaceState
 from contact.overlap import crossing_depth
 from contact.partition import HeatPartition
 from contact.self_contact import (
@@ -35,74 +36,14 @@ from fem.mechanics.rigid import RigidMechanics, RigidProblem
 from fem.mechanics.state import MechanicalState
 from fem.mechanics.step import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
 from fem.stepping.phases import Target
+from fem.stepping.road_contact import RoadContact, friction_power, lag_error
+from materials.arrays import FloatArray, IntArray
 from materials.units import W_PER_M2_K
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Lag of the friction force below which no further pass is made [-].
 LAG_TOLERANCE = 1e-3
 #: Deepest penetration of the block into itself in an accepted step, over the local element size.
 PENETRATION_MAX = 0.01
-
-
-@dataclass(frozen=True, kw_only=True)
-class RoadContact:
-    """Contact of the candidates with the road at the end of a step, arrays (m,).
-
-    Attributes
-    ----------
-    status : ContactStatus
-        Open, stick or slip.
-    length : float array
-        Contact length of each node [mm].
-    normal, shear : float arrays
-        Force of the road on the block per depth, upwards and along x [N/mm]; 0 where open.
-    pressure : float array
-        Normal force per contact length, 0 where open [N/mm^2].
-    slip_velocity : float array
-        Velocity over the road, signed [mm/s].
-    remembered_velocity : float array
-        Speed that the friction coefficient knows of, which follows the slip velocity [mm/s].
-    mu : float array
-        Friction coefficient the step was solved with [-].
-    """
-
-    status: ContactStatus
-    length: FloatArray
-    normal: FloatArray
-    shear: FloatArray
-    pressure: FloatArray
-    slip_velocity: FloatArray
-    remembered_velocity: FloatArray
-    mu: FloatArray
-
-    @property
-    def contact_length(self) -> float:
-        """Total contact length [mm]."""
-        return float(self.length[self.status.active].sum())
-
-    @property
-    def mean_slip_velocity(self) -> float:
-        """Slip velocity, signed, weighted by the normal force [mm/s]; 0 without contact."""
-        total = self.normal_force
-        return float(np.sum(self.normal * self.slip_velocity) / total) if total > 0.0 else 0.0
-
-    @property
-    def normal_force(self) -> float:
-        """Normal force on the road [N/mm]."""
-        return float(self.normal.sum())
-
-    @property
-    def mean_pressure(self) -> float:
-        """Normal force over contact length [N/mm^2]; 0 without contact."""
-        length = self.contact_length
-        return max(self.normal_force, 0.0) / length if length > 0.0 else 0.0
-
-    @property
-    def friction_force(self) -> float:
-        """Force of the block on the road along x, positive to the right [N/mm]."""
-        return float(-self.shear.sum())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -276,14 +217,14 @@ class CoupledModel:
         zeros = np.zeros(self.mechanics.candidates.size)
         contact = RoadContact(
             status=mechanics.status, length=zeros, normal=zeros, shear=zeros, pressure=zeros,
-            slip_velocity=zeros, remembered_velocity=zeros, mu=zeros,
+            slip_velocity=zeros, remembered_velocity=zeros, slip=zeros, mu=zeros,
         )  # fmt: skip
         contact = replace(
             contact, pressure=np.where(mechanics.status.active, self.mean_pressure, 0)
         )
         return CoupledState(
             time=time, position=0.0, mechanics=mechanics, heat=heat, contact=contact,
-            mu=self._coefficient(contact, heat),
+            mu=self._coefficient(contact, heat, 0.0),
         )  # fmt: skip
 
     def advance(
@@ -329,7 +270,7 @@ class CoupledModel:
                     failure=result.failure, detail=result.detail, iterations=iterations
                 )
             contact = self._contact(state, problem, result)
-            mu_next = self._coefficient(contact, state.heat)
+            mu_next = self._coefficient(contact, state.heat, state.position)
             lag = lag_error(contact, mu_next)
             mu_settled = lag < LAG_TOLERANCE or last
             next_pairs = self._followed(state, pairs, result.x.u)
@@ -388,19 +329,32 @@ class CoupledModel:
         remembered = self.laws.friction.remembered(known, speed, forces.slip)
         length = self.mechanics.contact_lengths(x.u, active)
         normal = np.where(active, forces.normal, 0.0)
+        slip = np.where(before.status.active, before.slip, 0.0) + np.abs(forces.slip)
         return RoadContact(
             status=x.status, length=np.where(active, length, 0.0), normal=normal,
             shear=np.where(active, forces.tangential, 0.0),
             pressure=np.maximum(normal, 0.0) / length,
             slip_velocity=forces.slip / problem.load.dt, remembered_velocity=remembered,
-            mu=problem.load.mu,
+            slip=np.where(active, slip, 0.0), mu=problem.load.mu,
         )  # fmt: skip
 
-    def _coefficient(self, contact: RoadContact, heat: HeatState) -> FloatArray:
-        """Friction coefficient at the contact's pressure, slip velocity and temperature."""
+    def _coefficient(self, contact: RoadContact, heat: HeatState, position: float) -> FloatArray:
+        """Friction coefficient of a contact at the temperatures and the place of a heat state."""
         p = np.where(contact.status.active, contact.pressure, self.mean_pressure)
-        v = contact.remembered_velocity
-        return self.laws.friction.coefficient(p, v, heat.T[self.mechanics.candidates])
+        mean, v = contact.mean_pressure or self.mean_pressure, contact.remembered_velocity
+        return self.laws.friction.at(
+            self._interface(contact, heat, position, p=p, v=v, mean_pressure=mean)
+        )
+
+    def _interface(
+        self, contact: RoadContact, heat: HeatState, position: float, **known: ArrayLike
+    ) -> InterfaceState:
+        """State of the candidates, for the laws, with the temperatures of a heat state."""
+        nodes = self.mechanics.candidates
+        return InterfaceState(
+            T_C=heat.T[nodes], T_road_C=self.heat.road_below(heat, nodes, position),
+            slip=contact.slip, **known,
+        )  # fmt: skip
 
     def _accept(
         self,
@@ -418,13 +372,15 @@ class CoupledModel:
         power = friction_power(state.contact, contact, self.mechanics.start_weight)
         # A node that has just opened made its heat under the pressure it had.
         pressure = np.where(contact.status.active, contact.pressure, state.contact.pressure)
-        mean = state.contact.mean_pressure or self.mean_pressure
-        pressure = self.laws.partition.governing(pressure, mean)
-        kappa, uncapped = self.laws.partition(pressure), self.laws.partition.uncapped(pressure)
+        interface = self._interface(
+            contact, state.heat, state.position, p=pressure, v=contact.slip_velocity,
+            mean_pressure=state.contact.mean_pressure or self.mean_pressure,
+        )  # fmt: skip
+        kappa = self.laws.partition.at(interface)
         nodes, work = self._self_friction(problem, result.evaluation)
         rubber = problem.rubber_end(result.evaluation)
         heat = self._heat(
-            state, target, x.u, contact, kappa * power,
+            state, target, x.u, contact, interface, kappa * power,
             surface=(nodes, work / target.dt),
             bulk=self.mechanics.bulk_power(rubber, target.dt) if self.rubber_heats else None,
         )  # fmt: skip
@@ -432,14 +388,15 @@ class CoupledModel:
         mechanics = problem.end(x, rubber, self_shear)
         after = CoupledState(
             time=state.time + target.dt, position=state.position + target.sweep,
-            mechanics=mechanics, heat=heat, contact=contact, mu=self._coefficient(contact, heat),
+            mechanics=mechanics, heat=heat, contact=contact,
+            mu=self._coefficient(contact, heat, state.position + target.sweep),
         )  # fmt: skip
         return AcceptedStep(
             before=state, after=after, target=target, evaluation=result.evaluation,
             problem=problem, iterations=iterations, hardest_pass=hardest,
             lag_error=lag_error(contact, after.mu),
             power=power, kappa=kappa,
-            capped=uncapped > self.laws.partition.cap, self_friction=float(work.sum()),
+            capped=self.laws.partition.capped(interface), self_friction=float(work.sum()),
             penetration=penetration,
             energies=self.mechanics.energies(
                 result.evaluation, mechanics.velocity, problem.past, rubber
@@ -476,11 +433,12 @@ class CoupledModel:
 
     def _heat(
         self, state: CoupledState, target: Target, u: FloatArray, contact: RoadContact,
-        power: FloatArray, *, surface: tuple[IntArray, FloatArray], bulk: FloatArray | None,
+        interface: InterfaceState, power: FloatArray, *,
+        surface: tuple[IntArray, FloatArray], bulk: FloatArray | None,
     ) -> HeatState:  # fmt: skip
         active = contact.status.active
         opened = ~active & (power != 0.0)
-        h = self.laws.conductance.conductance(contact.pressure, np.abs(contact.slip_velocity))
+        h = self.laws.conductance.at(interface)
         load = HeatLoad(
             dt=target.dt, sweep=target.sweep, displacement=u,
             contact_nodes=self.mechanics.candidates[active], power=power[active],
@@ -490,24 +448,3 @@ class CoupledModel:
             bulk_power=bulk, convection=target.convection,
         )  # fmt: skip
         return self.heat.advance(state.heat, load, state.position)
-
-
-def friction_power(
-    before: RoadContact, after: RoadContact, start_weight: float = 0.5
-) -> FloatArray:
-    """Frictional power of the candidates, mean over a step, (m,) [mJ/s].
-
-    The shear forces at both ends of the step times the slip in it, half each: the trapezoidal
-    rule, by which the work of the platen is audited too (those of a rigid block jump, and their
-    `start_weight` is 0). A node that closes or opens in the step
-    moves with its force only for a part of it, which this counts as half.
-    """
-    shear = start_weight * before.shear + (1.0 - start_weight) * after.shear
-    return np.asarray(-shear * after.slip_velocity)
-
-
-def lag_error(contact: RoadContact, mu_next: FloatArray) -> float:
-    """Relative change of the slip force between two friction coefficients [-]."""
-    weight = np.where(contact.status.slipping, np.abs(contact.normal), 0.0)
-    total = float(np.sum(weight * contact.mu))
-    return float(np.sum(weight * np.abs(mu_next - contact.mu))) / total if total > 0.0 else 0.0

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contact import HeatPartition
+from contact import HeatPartition, InterfaceState
 
 
 def test_partition_of_eq_14():
@@ -31,10 +31,12 @@ def test_wrong_parameters_are_refused():
 
 
 def test_the_governing_pressure_is_mean_local_or_fixed():
-    p = [0.1, 0.3, 5.0]
-    assert HeatPartition().governing(p, 0.3) == pytest.approx([0.3] * 3)
-    assert HeatPartition(pressure="local").governing(p, 0.3) == pytest.approx(p)
-    assert HeatPartition(pressure=0.25).governing(p, 0.3) == pytest.approx([0.25] * 3)
+    state = InterfaceState(p=[0.1, 0.3, 5.0], mean_pressure=0.3)
+    for pressure, expected in (("mean", [0.3] * 3), ("local", state.p), (0.25, [0.25] * 3)):
+        law = HeatPartition(pressure=pressure)
+        assert law.governing(state) == pytest.approx(expected)
+        np.testing.assert_array_equal(law.at(state), law(expected))
+        np.testing.assert_array_equal(law.capped(state), law.uncapped(expected) > 1.0)
 
 
 @pytest.mark.parametrize("pressure", ["nominal", 0.0, -0.3, float("nan")])

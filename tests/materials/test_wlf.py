@@ -18,14 +18,6 @@ def test_ten_kelvin_hotter_act_like_0_15_of_the_velocity():
     assert WLF().equivalent_velocity(300.0, 20.0, 20.0) == 300.0
 
 
-def test_derivative_matches_central_differences():
-    T, h, wlf = np.array([5.0, 20.0, 60.0]), 1e-4, WLF()
-    slope = (
-        wlf.equivalent_velocity(50.0, T + h, 20.0) - wlf.equivalent_velocity(50.0, T - h, 20.0)
-    ) / (2 * h)
-    np.testing.assert_allclose(wlf.dequivalent_velocity_dT(50.0, T, 20.0), slope, rtol=1e-7)
-
-
 def test_rebased_constants_describe_the_same_shift():
     old, T = WLF(d1=8.86, d2_K=101.6), np.array([10.0, 40.0, 90.0])
     new = old.rebased(20.0, 50.0)

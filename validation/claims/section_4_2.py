@@ -10,6 +10,7 @@ from functools import partial
 
 import numpy as np
 
+from contact import InterfaceState
 from fem.results import Result
 from materials.units import ABSOLUTE_ZERO_C
 from validation.analysis import shape, warmth
@@ -109,6 +110,8 @@ def _under_the_edge(run: Result) -> dict[str, float]:
     """Pressure, heat partition and gap conductance where the pressure is highest."""
     p = shape.highest_pressure(run)
     partition = run.case.heat.partition_object()
-    governing = float(partition.governing(p, number(run, _PRESSURE)))
+    governing = float(
+        partition.governing(InterfaceState(p=p, mean_pressure=number(run, _PRESSURE)))
+    )
     h = float(run.case.heat.conductance_object().conductance(p))
     return {"p": p, "governing": governing, "kappa": float(partition(governing)), "h": h}

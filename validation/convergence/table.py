@@ -64,7 +64,7 @@ def onset_table(runs: list[SweptRun]) -> pd.DataFrame:
         {
             "compound": run.study_case.case.rubber.compound,
             "law": run.study_case.case.friction.law,
-            "mu": run.study_case.case.friction.mu,
+            "mu": run.study_case.case.friction.constants.get("mu"),
             "height_mm": run.study_case.case.block.height_mm,
             "velocity_mm_per_s": run.study_case.case.loading.velocity_mm_per_s,
             "step_mm_max": run.study_case.case.solver.step_mm_max,

@@ -20,7 +20,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.data.tables import Table, read_table
-from fem.case import LAWS
+from contact import FRICTION_LAWS
 from fem.results import excess_area, interior_peak
 from materials.arrays import FloatArray
 
@@ -181,10 +181,10 @@ def _conditions(table: Table) -> pd.DataFrame:
         name: _words(table.frame[name]) if table.has(name) else "" for name in _WORDS
     }
     frame = pd.DataFrame(columns, index=range(len(table)))
-    unknown = ~frame["law"].isin(("", *LAWS)).to_numpy()
+    unknown = ~frame["law"].isin(("", *FRICTION_LAWS)).to_numpy()
     if unknown.any():
         index = int(np.argmax(unknown))
-        expected = f"one of {', '.join(LAWS)} or nothing"
+        expected = f"one of {', '.join(FRICTION_LAWS)} or nothing"
         table.refuse_at(index, "law", repr(frame["law"].iloc[index]), expected)
     for name in _NUMBERS:
         frame[name] = _optional_numbers(table, name)

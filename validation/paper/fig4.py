@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 
-from contact.friction import ExponentialFriction, FrictionLaw, HuemerFriction
+from contact import FRICTION_LAWS, FrictionLaw, HuemerFriction
 from fem.files import write_table
 from validation.drawing.style import (
     BLACK,
@@ -24,10 +24,11 @@ from validation.drawing.style import (
 )
 
 LAWS: dict[str, FrictionLaw] = {
-    "exponential": ExponentialFriction(),
-    "huemer": HuemerFriction(),
+    name: FRICTION_LAWS[name].kind() for name in ("exponential", "huemer")
 }
-TITLES = {"exponential": "(a) Exponential law (5)", "huemer": "(b) Law by Huemer (6)"}
+TITLES = {
+    name: f"({letter}) {FRICTION_LAWS[name].label}" for letter, name in zip("ab", LAWS, strict=True)
+}
 VELOCITIES_MM_PER_S = np.geomspace(1.0, 1000.0, 121)
 PRESSURES_N_PER_MM2 = np.geomspace(0.05, 1.0, 61)
 #: Pressures and velocities of the paper's simulations (Fig. 12).

@@ -8,13 +8,14 @@ import pytest
 
 import treadfem
 from calibration import DataError, compare_laws, fit_friction
-from calibration.friction.curves import LAWS
+from calibration.friction.curves import forms
 from calibration.paper_tables import FRICTION_LAWS, friction_values
 from calibration.synthetic import synthetic_friction
 from contact import ExponentialFriction, HuemerFriction, ThermalFriction
 from materials import WLF
 
 TABLE_2 = friction_values()
+LAWS = ("exponential", "huemer")
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -32,7 +33,7 @@ def test_noisy_parameters_come_back_within_three_standard_errors(law):
 
 @pytest.mark.parametrize("law", LAWS)
 def test_jacobian_matches_central_differences(law):
-    form = LAWS[law]
+    form = forms()[law]
     p, v = (a.ravel() for a in np.meshgrid([0.1, 0.3, 0.9], [2.0, 26.0, 400.0]))
     theta = np.array([TABLE_2[law][name] for name in form.names])
     _, J, by_log_v = form.curve(theta, p, v)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from calibration.partition.simulation_store import Slide
+from contact import InterfaceState
 from fem.case.case import Case
 
 X = np.linspace(0.0, 20.0, 81)
@@ -46,7 +47,7 @@ class MadeUpStore:
         p = (np.ones_like(X) if rigid else SHAPE) * platen / share
         speed = abs(case.loading.velocity_mm_per_s) / 300.0
         partition = case.heat.partition_object()
-        kappa = partition(partition.governing(p, platen / share))
+        kappa = partition.at(InterfaceState(p=p, mean_pressure=platen / share))
         rise = 80.0 * speed**0.4 * (kappa * p) ** 0.9
         T = case.heat.ambient_C + rise
         return Slide(X=X, T=T, pressure=p, mean_contact_pressure=platen / share)

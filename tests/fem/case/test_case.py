@@ -270,7 +270,7 @@ def test_override_wins_over_the_parameter_file(tmp_path):
     (tmp_path / "fit.toml").write_text("[friction]\nlaw = 'coulomb'\nmu = 0.6\n")
     tables = {"loading": LOADING, "friction": {"parameters": "fit.toml"}}
     case = Case.from_dict(tables, folder=tmp_path, overrides={"friction.mu": 0.7})
-    assert case.friction.mu == 0.7
+    assert case.friction.constants["mu"] == 0.7
 
 
 def test_parameter_file_named_by_an_override_replaces_the_compound(tmp_path, monkeypatch):

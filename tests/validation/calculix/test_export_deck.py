@@ -181,7 +181,7 @@ def test_other_friction_law_is_exported_as_a_constant_and_the_deck_says_so():
     tables = {**sliding_case().to_dict(), "friction": {"law": "huemer"}}
     case = Case.from_dict(tables)
     text = input_deck(case)
-    mu = case.friction.law_object().evaluate(np.array(0.25), np.array(300.0), np.array(20.0)).mu
+    mu = case.friction.law_object().coefficient(0.25, 300.0, 20.0)
     assert named(read_deck(text), "FRICTION").numbers[0][0] == pytest.approx(float(mu), rel=1e-11)
     assert f"** {friction_remark(case)}" in text.splitlines()
     assert "huemer" in friction_remark(case)
