@@ -32,7 +32,7 @@ class InterfaceState:
     >>> HeatPartition().at(state).round(3)  # at the mean pressure
     array([0.716, 0.716])
     >>> GapConductance().at(state).round()
-    array([  570., 22538.])
+    array([  570., 22525.])
     """
 
     p: ArrayLike

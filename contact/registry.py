@@ -114,6 +114,7 @@ def friction_law(name: str, *, label: str, fitted: bool = True) -> Callable[[typ
     ...         return self.mu_end * (1.0 - np.exp(-at.slip / self.way_mm)) + 0.0 * at.p
     >>> [one.name for one in FRICTION_LAWS["worn-in"].parameters]
     ['mu_end', 'way_mm']
+    >>> del _LAWS["worn-in"]  # as if it had never been
 
     Raises
     ------

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic.fields import FieldInfo
 
 from contact.friction import FrictionLaw, ThermalFriction
-from contact.registry import FRICTION_LAWS
+from contact.registry import FRICTION_LAWS, Parameter
 from fem.case.base import (
     Celsius,
     NotNegative,
@@ -160,25 +160,28 @@ def enter_laws(*outer: type[Section]) -> None:
     entered = {_LAW: FieldInfo(annotation=wanted, default=DEFAULT_LAW, description=labels)}
     for law in FRICTION_LAWS.values():
         for one in law.parameters:
-            if one.name in entered or one.name in _OWN_KEYS:
+            if one.name in _OWN_KEYS or one.name == _LAW:
                 raise ValueError(
                     f"parameter {one.name} of the friction law {law.name!r} is the name of another "
                     "key of [friction]; expected another name"
                 )
-            number: Any = (
-                Annotated[float, Field(ge=one.low, le=one.high, allow_inf_nan=False)] | None
-            )
-            if one.name == "mu":
-                number = Annotated[number, Within(FRICTION)]
-            entered[one.name] = FieldInfo.from_annotated_attribute(
-                number, Field(None, description=one.description)
-            )
+            entered.setdefault(one.name, _key_of(one))
     own = {name: fields[name] for name in _OWN_KEYS}
     fields.clear()
     fields.update(entered | own)
     models: tuple[type[Section], ...] = (Friction, *outer)
     for model in models:
         model.model_rebuild(force=True)
+
+
+def _key_of(parameter: Parameter) -> FieldInfo:
+    """Key of a parameter; laws that share a name share the range of the first of them."""
+    limits = Field(ge=parameter.low, le=parameter.high, allow_inf_nan=False)
+    number: Any = Annotated[float, limits] | None
+    if parameter.name == "mu":
+        number = Annotated[number, Within(FRICTION)]
+    description = Field(None, description=parameter.description)
+    return FieldInfo.from_annotated_attribute(number, description)
 
 
 _OWN_KEYS = tuple(name for name in Friction.__pydantic_fields__ if name != _LAW)
