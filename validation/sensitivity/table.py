@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -82,7 +83,15 @@ def _row(run: StudyRun, base: StudyRun) -> dict[str, Any]:
 
 
 def _values(run: StudyRun, keys: list[str]) -> str:
-    return ", ".join(_shown(run[key]) for key in keys)
+    return ", ".join(_shown(_value(run, key)) for key in keys)
+
+
+def _value(run: StudyRun, key: str) -> Any:
+    """Value of a key in a run; of a parameter file, which is not in its case, the name."""
+    if not key.endswith(".parameters"):
+        return run[key]
+    named = run.study_case.overrides.get(key)
+    return "none" if named is None else Path(str(named)).stem
 
 
 def _shown(value: Any) -> str:
