@@ -120,6 +120,35 @@ def test_very_fast_and_very_slow_branches_give_the_elastic_answers(tau, factor):
         assert one[name] == pytest.approx(other[name], rel=1e-4), name
 
 
+def test_balances_hold_over_slides_lifts_and_rests_and_the_second_contact_is_softer():
+    phases = [
+        {"kind": "press", "mean_pressure_N_per_mm2": 0.25},
+        {"kind": "slide", "velocity_mm_per_s": 300.0, "distance_mm": 1.5},
+        {"kind": "lift", "time_s": 0.5},
+    ]
+    case = case_of(viscoelastic=SPECTRUM, mullins=MULLINS).to_dict()
+    case["loading"] = {"repeat": 2, "phase": phases}
+    case["block"]["mesh"] = {
+        "cells_x": 12,
+        "cells_y": 5,
+        "smallest_x_mm": 1.0,
+        "smallest_y_mm": 1.0,
+    }
+    result = simulate(Case.from_dict(case))
+    assert result.summary["status"] == "ok"
+    assert result.summary["energy_error"] < 0.01
+    assert result.summary["heat_error"] < 1e-9
+    pressed, _, rested, again, _, _ = (
+        rows.iloc[-1] for _, rows in result.history.groupby(["contact", "phase"])
+    )
+    stored = "strain_energy_mJ_per_mm"
+    assert rested[stored] < 1e-3 * pressed[stored]
+    assert again["platen_displacement_mm"] > 1.02 * pressed["platen_displacement_mm"]
+    # the largest load of before is not reached again by pressing alone
+    consumed = "damage_energy_mJ_per_mm"
+    assert again[consumed] - rested[consumed] < 0.1 * pressed[consumed]
+
+
 # ------------------------------------------------------------------- relaxation of a block
 
 
