@@ -23,6 +23,8 @@ from materials.prony import Prony
 from materials.wlf import WLF
 
 _LEAST_ROWS = 5
+_MOST_ROWS = 20_000  # of all tests; of longer records as many that follow their course
+_SHORTEST = 1e-9  # of the longest test; shorter times between rows are the clock's
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,11 +135,14 @@ def read_histories(
                 column="cycle", found="no row", expected=f"rows of the cycle {from_cycle} or later"
             )
     tests = tuple(_tests(source, columns))
+    followed = np.zeros(len(source), dtype=bool)
+    followed[np.concatenate([test.here for test in tests])] = True
     first = np.isin(np.arange(len(source)), [test.here[0] for test in tests])
     check_zero(source, np.where(first, columns["stretch"], np.nan), columns["stress"])
-    used = source.select(keep)
-    check_sign(used, columns["stretch"][keep], columns["stress"][keep])
+    check_sign(source.select(keep), columns["stretch"][keep], columns["stress"][keep])
     out = left_out(source.rows, ~keep, f"before the cycle {from_cycle}; they load the rubber")
+    out += left_out(source.rows, keep & ~followed, "between rows that follow the long record")
+    keep &= followed
     about = {
         "tests": [test.name for test in tests],
         "modes": sorted({test.mode for test in tests}),
@@ -175,6 +180,7 @@ def _tests(source: Table, columns: dict[str, Any]) -> list[History]:
         time, T_C = columns["time"], columns["T_C"]
         if time is not None:
             _refuse_falling(source, time, here)
+        here = here[_following(columns["stretch"][here], columns["stress"][here], len(source))]
         if here.size < _LEAST_ROWS:
             source.refuse_at(
                 int(here[-1]), "stretch", f"{here.size} rows of the test {name}",
@@ -194,6 +200,22 @@ def _tests(source: Table, columns: dict[str, Any]) -> list[History]:
     return found
 
 
+def _following(stretch: FloatArray, stress: FloatArray, rows: int) -> NDArray[np.intp]:
+    """Rows that follow the course of a test of a long record: evenly in rows, strain and stress."""
+    if rows <= _MOST_ROWS:
+        return np.arange(stretch.size)
+    travelled = np.linspace(0.0, 1.0, stretch.size)
+    for values in (stretch, stress):
+        way = np.append(0.0, np.cumsum(np.abs(np.diff(values))))
+        travelled = travelled + way / max(way[-1], 1e-300)
+    count = max(_LEAST_ROWS, stretch.size * _MOST_ROWS // rows)
+    stops = np.linspace(0.0, travelled[-1], count)
+    chosen: NDArray[np.intp] = np.unique(
+        np.searchsorted(travelled, stops).clip(max=stretch.size - 1)
+    )
+    return chosen
+
+
 def _refuse_falling(source: Table, time: FloatArray, here: NDArray[np.intp]) -> None:
     steps = np.diff(time[here])
     if np.any(steps < 0.0):
@@ -211,7 +233,8 @@ def time_range(data: Histories) -> tuple[float, float]:
     """Shortest time between rows and longest test [s]."""
     times = [test.time for test in data.tests if test.time is not None]
     steps = np.concatenate([np.diff(time) for time in times])
-    return float(steps[steps > 0.0].min()), float(max(np.ptp(time) for time in times))
+    longest = float(max(np.ptp(time) for time in times))
+    return max(float(steps[steps > 0.0].min()), _SHORTEST * longest), longest
 
 
 def branch_responses(

@@ -82,7 +82,7 @@ class HistoryFit:
         starts = law.starts(kin, points.stress, _STARTS, np.random.default_rng(0))
         starts = np.clip(starts[np.all(np.isfinite(starts), axis=1)], lower, upper)
         return MemoryCurve(
-            names=tuple(np.array(law.names)[free]),
+            names=tuple(name for name in law.names if name not in held),
             slow=lambda theta: law.stress(full(theta), kin),
             slow_slopes=lambda theta: law.jacobian(full(theta), kin)[:, free],
             modulus=modulus,

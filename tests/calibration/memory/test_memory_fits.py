@@ -133,6 +133,21 @@ def test_held_constants_and_earlier_cycles_are_respected():
     assert "they load the rubber" in result.metadata["rows_left_out"][0]
 
 
+def test_of_long_records_the_rows_that_follow_their_course_are_used_and_it_is_said(monkeypatch):
+    time = np.concatenate([[0.0], np.linspace(0.0, 200.0, 4001)])
+    stretch = np.append(1.0, np.full(4001, 1.5))
+    law, branches = made_up.split(made_up.RELAXATION, "G")
+    rubber = Rubber(elastic=NeoHooke(**law), viscous=made_up.spectrum(**branches))
+    stress = rubber.nominal_stress(time, stretch)
+    columns = {"time_s": time, "stretch": stretch, "nominal_stress_N_per_mm2": stress}
+    table = pd.DataFrame(columns)
+    monkeypatch.setattr("calibration.memory.histories._MOST_ROWS", 400)
+    result = fit_viscoelastic(table, "neo-hooke")
+    assert 100 < result.n_data <= 400
+    assert "between rows that follow the long record" in result.metadata["rows_left_out"][0]
+    assert result.values["tau2_s"] == pytest.approx(2.0, rel=0.02)
+
+
 def test_tests_at_several_temperatures_are_one_spectrum_with_a_shift():
     shift = WLF(d1=7.0, d2_K=120.0)
     rubber = Rubber(
