@@ -20,7 +20,7 @@ from fem.case.base import Section, refuse, refuse_finding
 from fem.case.friction import Friction, enter_laws
 from fem.case.heat import Heat
 from fem.case.loading import Loading
-from fem.case.reading import Source, apply_overrides, read_toml
+from fem.case.reading import Source, absolute_files, apply_overrides, read_toml
 from fem.case.rubber import Rubber
 from fem.case.sections import Block, Output, Road, Solver, Wear
 from fem.case.validation import case_error, refuse_unknown_keys
@@ -184,6 +184,7 @@ class Case(Section):
     def _from_source(cls, source: Source, overrides: Mapping[str, Any] | None) -> Case:
         enter_laws(Case)
         apply_overrides(source, dict(overrides or {}))
+        absolute_files(source)
         refuse_unknown_keys(source, cls)
         try:
             case = cls.model_validate(source.tables)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import (
     Discriminator,
     Field,
@@ -15,8 +16,9 @@ from pydantic import (
     model_validator,
 )
 
-from fem.case.base import Finite, Positive, Section, Within, refuse
+from fem.case.base import Finite, Positive, Section, Within, refuse, refuse_sentence
 from fem.case.errors import describe
+from fem.case.signals import Signal, digest, read_signal
 from materials.plausible import PRESSURE, SLIDING_DISTANCE, SPEED
 
 #: Duration of pressing [s] and distance of acceleration [mm], unless a phase says otherwise.
@@ -97,7 +99,44 @@ class Lift(Section):
         return self.time_s
 
 
-PhaseKind = Press | Slide | Lift
+class Record(Section):
+    """Follow velocity and pressure as a rig measured them; without pressure the block is in air."""
+
+    kind: Literal["record"] = "record"
+    file: Annotated[str, Field(min_length=1)] = Field(
+        description="CSV with time_s, velocity_mm_per_s, mean_pressure_N_per_mm2"
+    )
+    sha256: str | None = Field(None, description="of the file, which a resolved case names")
+
+    @model_validator(mode="after")
+    def _readable(self) -> Record:
+        try:
+            found = digest(self.file)
+            read_signal(self.file, found)
+        except ValueError as error:
+            refuse_sentence("file", describe(self.file), error)
+        if self.sha256 is not None and self.sha256 != found:
+            refuse("sha256", f"{found} of the file", f"{self.sha256} (or no sha256)")
+        self.__dict__["sha256"] = found
+        return self
+
+    @property
+    def signal(self) -> Signal:
+        """What was measured."""
+        return read_signal(self.file, self.sha256 or digest(self.file))
+
+    @property
+    def distance(self) -> float:
+        """Way of the platen, in air too [mm]."""
+        return float(self.signal.path[-1])
+
+    @property
+    def duration(self) -> float:
+        """Duration [s]."""
+        return self.signal.duration
+
+
+PhaseKind = Press | Slide | Lift | Record
 
 
 def _kind(value: object) -> str:
@@ -108,7 +147,8 @@ def _kind(value: object) -> str:
 _Phase = Annotated[
     Annotated[Press, Tag("<press>")]
     | Annotated[Slide, Tag("<slide>")]
-    | Annotated[Lift, Tag("<lift>")],
+    | Annotated[Lift, Tag("<lift>")]
+    | Annotated[Record, Tag("<record>")],
     Discriminator(_kind),
 ]
 
@@ -179,13 +219,18 @@ class Loading(Section):
             key = f"phase.{number}.kind"
             if isinstance(phase, Press):
                 pressed = True
+            elif isinstance(phase, Record):
+                stretches = phase.signal.contacts()
+                pressed = stretches[-1][2]
+                if self.top == "pressure" and not all(on for *_, on in stretches):
+                    refuse(key, 'a lift with top = "pressure"', 'top = "platen", which can lift')
             elif not pressed:
                 refuse(key, f'"{phase.kind}" of a block that is not pressed', '"press" before it')
             elif isinstance(phase, Lift):
                 pressed = False
                 if self.top == "pressure":
                     refuse(key, '"lift" with top = "pressure"', 'top = "platen", which can lift')
-        if not any(isinstance(p, Slide) and p.velocity_mm_per_s for p in self.phase):
+        if not any(_velocities(self.phase)):
             refuse("phase", "no phase that slides", 'one of kind "slide" with a velocity')
         if self.repeat * len(self.phase) > _MOST_PHASES:
             found = f"{self.repeat} times {len(self.phase)} phases"
@@ -194,8 +239,9 @@ class Loading(Section):
     def _summary(self) -> dict[str, float]:
         """The keys of a single slide, of phases."""
         pressures = [p.mean_pressure_N_per_mm2 for p in self.phase if isinstance(p, Press)]
-        slides = [p for p in self.phase if isinstance(p, Slide) and p.velocity_mm_per_s]
-        velocity, distance = slides[0].velocity_mm_per_s, sum(p.distance for p in slides)
+        pressures += [float(p.signal.p.max()) for p in self.phase if isinstance(p, Record)]
+        velocity = next(v for v in _velocities(self.phase) if v)
+        distance = sum(p.distance for p in self.phase if isinstance(p, Slide | Record))
         return dict(zip(_SLIDE, (max(pressures), velocity, self.repeat * distance), strict=True))
 
     @model_serializer(mode="wrap")
@@ -221,9 +267,16 @@ class Loading(Section):
     @property
     def speed(self) -> float:
         """Largest speed of a slide [mm/s]."""
-        return max(abs(p.velocity_mm_per_s) for p in self.phases if isinstance(p, Slide))
+        return max(map(abs, _velocities(self.phases)))
 
     @property
     def duration_s(self) -> float:
         """Time of the event, accelerations left out [s]."""
         return self.repeat * sum(p.duration for p in self.phases)
+
+
+def _velocities(phases: tuple[PhaseKind, ...]) -> list[float]:
+    """Velocity of each slide, and that of each record that has the largest size [mm/s]."""
+    found = [p.velocity_mm_per_s for p in phases if isinstance(p, Slide)]
+    records = [p.signal.v for p in phases if isinstance(p, Record)]
+    return [*found, *(float(v[np.argmax(np.abs(v))]) for v in records)]

@@ -109,6 +109,17 @@ def expand_references(source: Source) -> None:
         source.tables[section] = {**content, **table}
 
 
+def absolute_files(source: Source) -> None:
+    """Names of recorded signals, relative to the file that names them, as absolute ones."""
+    loading = source.tables.get("loading")
+    phases = loading.get("phase") if isinstance(loading, dict) else None
+    for number, phase in enumerate(phases if isinstance(phases, list | tuple) else ()):
+        if isinstance(phase, dict) and isinstance(phase.get("file"), str) and phase["file"]:
+            place = ("loading", "phase", str(number), "file")
+            path = expanded(phase["file"], source.file_of(place), ".".join(place))
+            phase["file"] = str((source.folder / path).absolute())
+
+
 def _shift_of(content: Table, own: Table, file: str, name: str) -> Table:
     """A parameter file's [friction] without what would mix the temperatures of law and shift."""
     constants = [key for key in ("d1", "d2_K") if key in content]

@@ -11,10 +11,12 @@ from scipy.optimize import brentq
 
 from fem.case import loading
 from fem.case.case import Case
+from fem.case.signals import Signal
 from fem.stepping.phases import (
     FIRST_REST,
     LONGEST_PART,
     SHORTEST_PART,
+    Follow,
     Hold,
     LiftOff,
     Phase,
@@ -68,7 +70,13 @@ class _Builder:
         if isinstance(phase, loading.Press):
             self._press(phase)
         elif isinstance(phase, loading.Lift):
-            self._lift(phase)
+            self._lift(phase.time_s, phase.convection_W_per_m2K)
+        elif isinstance(phase, loading.Record):
+            for start, end, on_road in phase.signal.contacts():
+                if on_road:
+                    self._follow(phase.signal, start, end)
+                else:
+                    self._air(end - start)
         elif phase.velocity_mm_per_s == 0.0:
             self._hold(phase.duration)
         else:
@@ -144,11 +152,33 @@ class _Builder:
         first = min(FIRST_REST, 0.1 * duration) * self.scale
         return {"step_initial": first, "step_max": duration, "step_min": 1e-3 * first}
 
-    def _lift(self, phase: loading.Lift) -> None:
+    def _follow(self, signal: Signal, start: float, end: float) -> None:
+        """Follow what was measured on the road."""
+        solver, scale, comes_down = self.case.solver, self.scale, self.in_air
+        self.contact += comes_down or not self.contact
+        self.in_air, self.pressure = False, signal.at(signal.p, end)
+        self.velocity = signal.at(signal.v, end)
+        path = solver.heat_step_mm if self.rigid else solver.step_mm_max
+        first = path if self.rigid else solver.step_mm_initial
+        duration = end - start
+        follow = Follow(
+            signal=signal, since=start, end=duration, length=self.case.block.length_mm,
+            path_max=scale * path, path_initial=scale * first, onset_share=scale * ONSET_SHARE,
+            pressure_max=scale * LONGEST_PART * float(signal.p.max()), touches_down=comes_down,
+            step_initial=duration, step_max=duration, step_min=1e-7 * duration, **self._common(),
+        )  # fmt: skip
+        self.phases.append(replace(follow, step_initial=follow.longest(0.0)))
+
+    def _air(self, time: float) -> None:
+        """In air after a contact; before the first one the block only waits."""
+        if self.contact:
+            self._lift(time, None)
+
+    def _lift(self, time_s: float, convection: float | None) -> None:
         self.pressure, self.velocity, self.in_air = 0.0, 0.0, True
-        common, rest = self._common(), phase.time_s
-        if phase.convection_W_per_m2K is not None:
-            common["convection"] = W_PER_M2_K * phase.convection_W_per_m2K
+        common, rest = self._common(), time_s
+        if convection is not None:
+            common["convection"] = W_PER_M2_K * convection
         if not self.rigid:
             time = min(LIFTING_TIME, LIFTING_SHARE * rest)
             self.phases.append(

@@ -10,6 +10,7 @@ from tests.wrong_inputs.measured import MEASURED
 from tests.wrong_inputs.memory import MEMORY
 from tests.wrong_inputs.memory_tests import MEMORY_TESTS
 from tests.wrong_inputs.rows import WrongInput, of_case
+from tests.wrong_inputs.signals import SIGNALS
 from tests.wrong_inputs.texts import READING
 from tests.wrong_inputs.units import UNITS
 from tests.wrong_inputs.unusual import UNUSUAL_INPUTS
@@ -17,6 +18,6 @@ from tests.wrong_inputs.unusual import UNUSUAL_INPUTS
 __all__ = ["LOADING", "UNUSUAL_INPUTS", "WRONG_INPUTS", "WrongInput"]
 
 WRONG_INPUTS = [
-    *map(of_case, [*WRONG_CASES, *RANGES, *MEMORY, *SET_SYNTAX]),
+    *map(of_case, [*WRONG_CASES, *RANGES, *MEMORY, *SIGNALS, *SET_SYNTAX]),
     *(UNITS + MEASURED + READING + RIGS + STUDIES + EXPORTS + MEMORY_TESTS),
 ]

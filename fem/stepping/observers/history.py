@@ -18,7 +18,6 @@ from fem.stepping.audit import EnergyAudit, EnergyAuditor
 from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
 from fem.stepping.moment import Moment
 from fem.stepping.observers.wear import WearRecorder
-from fem.stepping.phases import Phase
 from materials.arrays import FloatArray
 
 
@@ -65,14 +64,15 @@ class HistoryRecorder:
         row |= {"sticking_nodes": int(status.sticking.sum())}
         row |= {"slipping_nodes": int(status.slipping.sum())}
         row |= self._window_columns(step, strains)
-        self.rows.append(row | self._event_columns(moment.phase))
+        self.rows.append(row | self._event_columns(moment))
 
-    def _event_columns(self, phase: Phase) -> dict[str, float]:
+    def _event_columns(self, moment: Moment) -> dict[str, float]:
         """Where in an event of phases the step is, and what wore off."""
         row: dict[str, float] = {}
         if self.case.loading.phase:
-            row |= {"phase": phase.number, "contact": phase.contact}
-            row |= {"mean_pressure_N_per_mm2": phase.pressure}
+            row |= {"phase": moment.phase.number, "contact": moment.phase.contact}
+            pressure = moment.step.target.force / self.case.block.length_mm
+            row |= {"mean_pressure_N_per_mm2": pressure}
         if self.wear.law.coefficient > 0.0:
             row |= {"wear_volume_mm3_per_mm": self.wear.wear.volume}
         return row
