@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -53,7 +54,7 @@ class Slide(Section):
     """Slide the block; at velocity 0 hold it."""
 
     kind: Literal["slide"] = "slide"
-    velocity_mm_per_s: _Velocity = Field(
+    velocity_mm_per_s: Annotated[Finite, Within(replace(SPEED, zero=True))] = Field(
         description="sliding velocity [mm/s]; negative slides to the left, 0 holds"
     )
     distance_mm: _Distance | None = Field(None, description="sliding distance [mm]")

@@ -211,11 +211,16 @@ class BlockConduction:
         data = np.bincount(self._slot, weights=entries, minlength=len(self._indices))
         return csc_matrix((data, self._indices, self._indptr), shape=(self.n, self.n))
 
-    def factorise(self, displacement: FloatArray, dt: float) -> Factorisation:
-        """Factor M + dt K for the deformed block and a time increment [s]."""
+    def factorise(
+        self, displacement: FloatArray, dt: float, film: FloatArray | None = None
+    ) -> Factorisation:
+        """Factor M + dt K for the deformed block and a time increment [s].
+
+        A `film` (n,) [N/(s K)] to surroundings at the temperature that excess counts from is added.
+        """
         matrix = self.conduction_matrix(displacement)
         matrix.data *= dt
-        matrix.data[self._diagonal] += self.capacity
+        matrix.data[self._diagonal] += self.capacity if film is None else self.capacity + dt * film
         with self.stopwatch:
             factor = splu(matrix, permc_spec="MMD_AT_PLUS_A", **SYMMETRIC)
         return Factorisation(displacement=displacement, dt=dt, factor=factor)

@@ -43,6 +43,8 @@ class HeatLoad:
         Heat made inside the block, by node [mJ/s].
     convection : float
         Film coefficient of the block's free surfaces [N/(mm s K)].
+    parts : int
+        Sub-steps it has at least.
     """
 
     dt: float
@@ -55,6 +57,7 @@ class HeatLoad:
     surface_power: FloatArray = field(default_factory=_no_values)
     bulk_power: FloatArray | None = None
     convection: float = 0.0
+    parts: int = 1
 
     def __post_init__(self) -> None:
         if not self.dt > 0.0:

@@ -17,6 +17,7 @@ from fem.files import spreadsheet, staged_directory
 from fem.results.bottom_history import BOTTOM_FILE, BottomHistory
 from fem.results.boundary import surface_table
 from fem.results.columns import BOUNDARY, HISTORY, SUMMARY, SURFACE, in_order
+from fem.results.contacts import contacts_table
 from fem.results.fields import FIELDS_FILE, read_fields, write_fields
 from fem.results.snapshot import BlockGeometry, Snapshot
 
@@ -25,6 +26,7 @@ LOG_FILE = "run.log"
 HISTORY_FILE = "history.csv"
 SURFACE_FILE = "surface.csv"
 BOUNDARY_FILE = "boundary.csv"
+CONTACTS_FILE = "contacts.csv"
 SUMMARY_JSON = "summary.json"
 SUMMARY_CSV = "summary.csv"
 #: Of the export for ParaView; the last one is written last.
@@ -134,19 +136,28 @@ class Result:
             bottom=bottom,
         )
 
+    @property
+    def contacts(self) -> pd.DataFrame | None:
+        """A row per contact of an event, columns of `fem.results.contacts.CONTACTS`, or None."""
+        if "contact" not in self.history:
+            return None
+        return contacts_table(self.history, self.case.heat.ambient_C)
+
     def write(self, directory: str | Path) -> None:
         """Write case, log, tables, summary, fields and (if the case asks for them) VTU files.
 
         Everything is written into a temporary folder first; see `staged_directory`.
         """
         # Figures of an earlier result are drawn anew from this one, or they are not there.
-        outdated = (*VTU_FILES, BOTTOM_FILE, f"{FIGURES_FOLDER}/*.png")
+        outdated = (*VTU_FILES, BOTTOM_FILE, CONTACTS_FILE, f"{FIGURES_FOLDER}/*.*")
         with staged_directory(directory, outdated=outdated, last=SUMMARY_JSON) as stage:
             (stage / CASE_FILE).write_text(self.case.to_toml(), encoding="utf-8")
             (stage / LOG_FILE).write_text("".join(f"{x}\n" for x in self.log), encoding="utf-8")
             self.history.to_csv(stage / HISTORY_FILE, index=False, lineterminator="\n")
             self.surface.to_csv(stage / SURFACE_FILE, index=False, lineterminator="\n")
             self.boundary.to_csv(stage / BOUNDARY_FILE, index=False, lineterminator="\n")
+            if (contacts := self.contacts) is not None:
+                contacts.to_csv(stage / CONTACTS_FILE, index=False, lineterminator="\n")
             if self.bottom is not None:
                 self.bottom.write(stage / BOTTOM_FILE)
             write_summary(stage, self.summary)

@@ -22,6 +22,8 @@ _ITERATIONS = 5.0
 _ITERATION_S, _HEAT_STEP_S = 0.019, 0.002
 #: Steps of pressing and of the onset of sliding, which are shorter than the longest step.
 _SHORT_STEPS = 35
+#: Steps of lifting off and of a rest in air, which follow the heat.
+_REST_STEPS = 70
 #: The program itself, the factors per element, a snapshot per element, a step of the history [GB].
 _PROGRAM_GB, _ELEMENT_GB, _SNAPSHOT_GB, _STEP_GB = 0.25, 4e-5, 2e-7, 3e-6
 #: Beyond a month nobody waits for a run.
@@ -78,10 +80,13 @@ def estimated_cost(case: Case) -> Cost:
         elements = NAMED_GRADINGS[mesh].cells_x * NAMED_GRADINGS[mesh].cells_y
     size, distance = elements / _REFERENCE, case.loading.distance_mm
     longest = max(solver.step_mm_max * solver.steps_scale, solver.step_mm_min)
+    scale, kinds = min(solver.steps_scale, 1.0), [p.kind for p in case.loading.phases]
+    at_rest = _REST_STEPS * case.loading.repeat * kinds.count("lift") / scale
     steps = 0
     if not case.block.rigid:
-        steps = round(_SHORT_STEPS / min(solver.steps_scale, 1.0) + distance / longest)
-    heat_steps = max(steps, round(distance / (solver.heat_step_mm * solver.steps_scale)))
+        short = _SHORT_STEPS * case.loading.repeat * kinds.count("slide") / scale
+        steps = round(short + distance / longest + at_rest)
+    heat_steps = max(steps, round(distance / (solver.heat_step_mm * solver.steps_scale) + at_rest))
     passes = max(solver.friction_passes, 1) / 2.0
     return Cost(
         elements=elements,

@@ -445,6 +445,6 @@ class CoupledModel:
             conductance=(W_PER_M2_K * h * contact.length)[active],
             surface_nodes=np.concatenate([self.mechanics.candidates[opened], surface[0]]),
             surface_power=np.concatenate([power[opened], surface[1]]),
-            bulk_power=bulk, convection=target.convection,
+            bulk_power=bulk, convection=target.convection, parts=target.heat_parts,
         )  # fmt: skip
         return self.heat.advance(state.heat, load, state.position)

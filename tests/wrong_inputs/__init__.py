@@ -6,6 +6,7 @@
 from tests.wrong_inputs.case_ranges import RANGES
 from tests.wrong_inputs.cases import LOADING, SET_SYNTAX, WRONG_CASES
 from tests.wrong_inputs.commands import EXPORTS, RIGS, STUDIES
+from tests.wrong_inputs.events import EVENTS
 from tests.wrong_inputs.measured import MEASURED
 from tests.wrong_inputs.memory import MEMORY
 from tests.wrong_inputs.memory_tests import MEMORY_TESTS
@@ -18,6 +19,6 @@ from tests.wrong_inputs.unusual import UNUSUAL_INPUTS
 __all__ = ["LOADING", "UNUSUAL_INPUTS", "WRONG_INPUTS", "WrongInput"]
 
 WRONG_INPUTS = [
-    *map(of_case, [*WRONG_CASES, *RANGES, *MEMORY, *SIGNALS, *SET_SYNTAX]),
+    *map(of_case, [*WRONG_CASES, *RANGES, *EVENTS, *SIGNALS, *MEMORY, *SET_SYNTAX]),
     *(UNITS + MEASURED + READING + RIGS + STUDIES + EXPORTS + MEMORY_TESTS),
 ]

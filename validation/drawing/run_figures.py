@@ -18,6 +18,7 @@ from fem.results import (
     read_summary,
     read_table,
 )
+from validation.drawing.event_panels import draw_event, write_animation
 from validation.drawing.history_panels import (
     draw_contact,
     draw_forces,
@@ -33,7 +34,7 @@ from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
 
 def write_run_figures(directory: str | Path) -> list[Path]:
     """Draw what a run's folder holds into its `figures`: `history`, `surface`, `onset`,
-    `final_state`.
+    `final_state`; of an event also `event` and the animation `contact.gif`.
 
     Parameters
     ----------
@@ -59,6 +60,10 @@ def write_run_figures(directory: str | Path) -> list[Path]:
         bottom = BottomHistory.read(directory / BOTTOM_FILE)
         paths.append(save(draw_onset(history, bottom), figures / "onset.png"))
     result = Result.read(directory)
+    contacts = result.contacts
+    if contacts is not None and len(contacts) and result.snapshots:
+        paths.append(save(draw_event(result, contacts), figures / "event.png"))
+        paths.append(write_animation(result, figures / "contact.gif"))
     if result.snapshots:
         paths.append(save(draw_final_state(result), figures / "final_state.png"))
     return paths

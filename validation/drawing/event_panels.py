@@ -1,0 +1,126 @@
+"""Pictures of an event of several contacts: temperatures, friction, depth, a contact in motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.animation import FuncAnimation, PillowWriter
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from fem.files import replacing
+from fem.results import Result
+from materials.arrays import FloatArray
+from validation.drawing.block_drawing import (
+    Window,
+    draw_outline,
+    draw_road,
+    draw_smooth,
+    set_window,
+)
+from validation.drawing.style import (
+    BLUE,
+    GREY,
+    PAGE_WIDTH,
+    TEMPERATURE_MAP,
+    VERMILLION,
+    new_figure,
+    styled,
+)
+
+TIME_LABEL = "time [s]"
+#: Depth that is drawn [mm]: what some contacts heat.
+DEPTH = 2.0
+
+
+@styled
+def draw_event(result: Result, contacts: pd.DataFrame) -> Figure:
+    """Draw surface temperature over the event, friction per contact, temperature over depth."""
+    figure = new_figure(PAGE_WIDTH, 125.0)
+    above, below = figure.subplots(2, 1, height_ratios=(1.2, 1.0))
+    _draw_temperatures(above, result.history)
+    grid = below.get_subplotspec()
+    below.remove()
+    left, right = grid.subgridspec(1, 2).subplots()
+    _draw_friction(left, contacts)
+    _draw_depth(right, result)
+    return figure
+
+
+def _draw_temperatures(axes: Axes, history: pd.DataFrame) -> None:
+    time = history["time_s"]
+    axes.plot(time, history["T_edge_C"], color=GREY, linewidth=0.7, label="front edge")
+    axes.plot(time, history["T_max_C"], color=VERMILLION, label="bottom, without the edge")
+    axes.set(xlabel=TIME_LABEL, ylabel="highest temperature [°C]", title="Surface of the block")
+    axes.set_xlim(0.0, time.iloc[-1])
+    axes.legend(loc="upper left")
+
+
+def _draw_friction(axes: Axes, contacts: pd.DataFrame) -> None:
+    axes.plot(contacts["contact"], contacts["friction_coefficient"], "o-", color=BLUE)
+    axes.set(xlabel="contact [-]", ylabel="friction coefficient [-]", title="Grip")
+    axes.xaxis.get_major_locator().set_params(integer=True)
+
+
+def _draw_depth(axes: Axes, result: Result) -> None:
+    """Temperature below the middle of the bottom, in the snapshots of the last contact."""
+    points = result.geometry.points
+    middle = 0.5 * (points[:, 0].min() + points[:, 0].max())
+    x = points[np.argmin(np.abs(points[:, 0] - middle)), 0]
+    line = np.flatnonzero((np.abs(points[:, 0] - x) < 1e-9) & (points[:, 1] <= DEPTH))
+    line = line[np.argsort(points[line, 1])]
+    shown = [result.snapshots[0], *result.snapshots[len(result.snapshots) // 2 :: 4]]
+    shown.append(result.snapshots[-1])
+    first = result.snapshots[0].time_s
+    for number, snapshot in enumerate(shown):
+        share = number / max(len(shown) - 1, 1)
+        axes.plot(
+            snapshot.temperature[line], points[line, 1], color=(share, 0.2, 1.0 - share),
+            label=f"{1e3 * (snapshot.time_s - first):.3g} ms",
+        )  # fmt: skip
+    axes.invert_yaxis()
+    axes.set(xlabel="temperature [°C]", ylabel="depth [mm]", title="Below the middle, last contact")
+    axes.legend(title="since first picture")
+
+
+def write_animation(result: Result, path: Path) -> Path:
+    """Write the snapshots of the last contact as an animated GIF, the block at 1:1 on its road."""
+    snapshots, rest = result.snapshots, result.geometry
+    places = [rest.points + snapshot.displacement for snapshot in snapshots]
+    window = _window(places)
+    norm = Normalize(
+        min(float(s.temperature.min()) for s in snapshots),
+        max(float(s.temperature.max()) for s in snapshots),
+    )
+    figure = new_figure(PAGE_WIDTH, 85.0)
+    axes = figure.subplots()
+    colours = ScalarMappable(norm=norm, cmap=TEMPERATURE_MAP)
+    figure.colorbar(colours, ax=axes, label="temperature [°C]", pad=0.01)
+
+    def draw(number: int) -> list[Axes]:
+        axes.clear()
+        points, snapshot = places[number], snapshots[number]
+        draw_road(axes, window)
+        draw_smooth(axes, points, rest.cells, snapshot.temperature, norm, TEMPERATURE_MAP)
+        draw_outline(axes, points, rest.cells)
+        set_window(axes, window)
+        axes.set(xlabel="$x$ in the platen's frame [mm]", ylabel="$y$ [mm]")
+        axes.set_title(f"{1e3 * snapshot.time_s:.2f} ms, {snapshot.sliding_distance_mm:.2f} mm")
+        return [axes]
+
+    film = FuncAnimation(figure, draw, frames=len(snapshots))
+    with replacing(path) as temporary:
+        film.save(temporary, writer=PillowWriter(fps=5), dpi=90)
+    return path
+
+
+def _window(places: Sequence[FloatArray]) -> Window:
+    """Window that holds all of them and a strip of road."""
+    points = np.concatenate(places)
+    (x_min, y_min), (x_max, y_max) = points.min(axis=0), points.max(axis=0)
+    return (x_min - 1.0, x_max + 1.0, min(y_min, 0.0) - 1.0, y_max + 0.5)
