@@ -10,6 +10,8 @@ References
 .. [4] Ruina, A., J. Geophys. Res. 88 (1983) 10359-10370: state of the contact, its stability.
 .. [5] Persson, B. N. J., J. Phys.: Condens. Matter 18 (2006) 7789-7823: rubber, contact regions of
    0.1 to 1 mm on asphalt.
+.. [6] Persson, B. N. J., J. Phys.: Condens. Matter 23 (2011) 015003: rubber friction and tire
+   dynamics, cold and hot branch.
 """
 
 from abc import ABC, abstractmethod
@@ -214,11 +216,18 @@ class ThermalFriction:
         Temperature at which the law was measured [deg C].
     memory_mm : float
         Slip over which the coefficient follows a change of the speed [mm]; 0: at once.
+    heating_slip_mm : float
+        Slip s_0 since touch-down over which contact spots become as hot as the surface [mm];
+        0: they are so at once.
 
     Notes
     -----
     ``v_equ = v a_T(T)/a_T(T_ref)`` with T the rubber's local surface temperature: a hotter surface
     acts like a slower one. The law's floor of the speed applies to v_equ.
+
+    With s_0, ``mu = mu_cold exp(-s/s_0) + mu_hot (1 - exp(-s/s_0))`` of the slip s since
+    touch-down [6]_: the law at the temperature that the surface had then, and at the present one.
+    Where slip or that temperature are not known, the coefficient is the hot one.
 
     Examples
     --------
@@ -232,10 +241,11 @@ class ThermalFriction:
     wlf: WLF | None = None
     T_ref_C: float = 20.0
     memory_mm: float = 0.0
+    heating_slip_mm: float = 0.0
 
     def __post_init__(self) -> None:
         require_finite(T_ref_C=self.T_ref_C)
-        require_not_negative(memory_mm=self.memory_mm)
+        require_not_negative(memory_mm=self.memory_mm, heating_slip_mm=self.heating_slip_mm)
 
     def remembered(self, v_before: ArrayLike, v: ArrayLike, slip: ArrayLike) -> FloatArray:
         """Speed that the coefficient knows of after a slip at the speed v [mm/s].
@@ -262,6 +272,16 @@ class ThermalFriction:
 
     def at(self, state: InterfaceState) -> FloatArray:
         """Friction coefficient [-] at a state of the interface."""
+        hot = self._shifted(state)
+        if self.heating_slip_mm == 0.0:
+            return hot
+        cold = self._shifted(replace(state, T_C=state.T_before_C))
+        left = np.exp(-np.asarray(state.slip, dtype=float) / self.heating_slip_mm)
+        known = np.isfinite(left) & np.isfinite(np.asarray(state.T_before_C, dtype=float))
+        return np.asarray(np.where(known, hot + (cold - hot) * left, hot))
+
+    def _shifted(self, state: InterfaceState) -> FloatArray:
+        """The law at the velocity that the temperature of the rubber makes of that of the state."""
         p, v, T = np.broadcast_arrays(
             np.asarray(state.p, dtype=float),
             np.asarray(state.v, dtype=float),

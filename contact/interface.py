@@ -24,6 +24,8 @@ class InterfaceState:
         Mean pressure of the contact [N/mm^2]; NaN where not known.
     slip : array_like
         Way slid over the road since touch-down [mm]; NaN where not known.
+    T_before_C : array_like
+        Surface temperature of the rubber at touch-down [deg C]; NaN where not known.
 
     Examples
     --------
@@ -41,3 +43,4 @@ class InterfaceState:
     T_road_C: ArrayLike = np.nan
     mean_pressure: ArrayLike = np.nan
     slip: ArrayLike = np.nan
+    T_before_C: ArrayLike = np.nan

@@ -67,6 +67,11 @@ class Friction(Section):
         0.3,
         description="slip over which the coefficient follows a change of speed [mm]; 0: at once",
     )
+    heating_slip_mm: _Memory = Field(
+        0.0,
+        description="slip since touch-down over which friction goes from that of the temperature "
+        "at touch-down to that of the present one [mm]; 0: at once",
+    )
     window: ContactWindow | None = Field(
         None, description="ranges the law was fitted to; a run says what leaves them"
     )
@@ -97,6 +102,13 @@ class Friction(Section):
         return filled
 
     @model_validator(mode="after")
+    def _warmth_matters(self) -> Friction:
+        if self.heating_slip_mm > 0.0 and not self.wlf:
+            expected = "0 with wlf = false, where no temperature matters"
+            refuse("heating_slip_mm", str(self.heating_slip_mm), expected)
+        return self
+
+    @model_validator(mode="after")
     def _law_exists(self) -> Friction:
         try:
             self.law_object()
@@ -119,8 +131,9 @@ class Friction(Section):
         """Build the law mu(p, v, T) with its WLF shift."""
         shift = self.shift() if self.wlf else None
         return ThermalFriction(
-            law=self.plain_law(), wlf=shift, T_ref_C=self.T_ref_C, memory_mm=self.memory_mm
-        )
+            law=self.plain_law(), wlf=shift, T_ref_C=self.T_ref_C, memory_mm=self.memory_mm,
+            heating_slip_mm=self.heating_slip_mm,
+        )  # fmt: skip
 
     def shift(self) -> WLF:
         """Build the WLF shift for the temperature of the law, whatever its constants refer to."""

@@ -217,7 +217,8 @@ class CoupledModel:
         zeros = np.zeros(self.mechanics.candidates.size)
         contact = RoadContact(
             status=mechanics.status, length=zeros, normal=zeros, shear=zeros, pressure=zeros,
-            slip_velocity=zeros, remembered_velocity=zeros, slip=zeros, mu=zeros,
+            slip_velocity=zeros, remembered_velocity=zeros, slip=zeros,
+            T_before=heat.T[self.mechanics.candidates], mu=zeros,
         )  # fmt: skip
         contact = replace(
             contact, pressure=np.where(mechanics.status.active, self.mean_pressure, 0)
@@ -330,12 +331,14 @@ class CoupledModel:
         length = self.mechanics.contact_lengths(x.u, active)
         normal = np.where(active, forces.normal, 0.0)
         slip = np.where(before.status.active, before.slip, 0.0) + np.abs(forces.slip)
+        T = state.heat.T[self.mechanics.candidates]
         return RoadContact(
             status=x.status, length=np.where(active, length, 0.0), normal=normal,
             shear=np.where(active, forces.tangential, 0.0),
             pressure=np.maximum(normal, 0.0) / length,
             slip_velocity=forces.slip / problem.load.dt, remembered_velocity=remembered,
-            slip=np.where(active, slip, 0.0), mu=problem.load.mu,
+            slip=np.where(active, slip, 0.0),
+            T_before=np.where(before.status.active, before.T_before, T), mu=problem.load.mu,
         )  # fmt: skip
 
     def _coefficient(self, contact: RoadContact, heat: HeatState, position: float) -> FloatArray:
@@ -353,7 +356,7 @@ class CoupledModel:
         nodes = self.mechanics.candidates
         return InterfaceState(
             T_C=heat.T[nodes], T_road_C=self.heat.road_below(heat, nodes, position),
-            slip=contact.slip, **known,
+            slip=contact.slip, T_before_C=contact.T_before, **known,
         )  # fmt: skip
 
     def _accept(

@@ -30,6 +30,8 @@ class RoadContact:
         Speed that the friction coefficient knows of, which follows the slip velocity [mm/s].
     slip : float array
         Way slid since touch-down [mm]; 0 where open.
+    T_before : float array
+        Temperature of the rubber at touch-down [deg C]; of open nodes, the present one.
     mu : float array
         Friction coefficient the step was solved with [-].
     """
@@ -42,6 +44,7 @@ class RoadContact:
     slip_velocity: FloatArray
     remembered_velocity: FloatArray
     slip: FloatArray
+    T_before: FloatArray
     mu: FloatArray
 
     @property

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from contact import CoulombFriction, ExponentialFriction, HuemerFriction, ThermalFriction, shifted
+from contact.interface import InterfaceState
 from materials import WLF
 
 LAWS = {
@@ -117,6 +118,29 @@ def test_two_half_slips_are_remembered_like_one_whole(slip):
 
 def test_a_steady_speed_is_remembered_as_it_is():
     np.testing.assert_array_equal(MEMORY.remembered(V, V, 0.07), V)
+
+
+HEATING = ThermalFriction(law=HuemerFriction(), wlf=WLF(), heating_slip_mm=0.2)
+
+
+def warmed(slip):
+    return InterfaceState(p=0.3, v=300.0, T_C=80.0, T_before_C=30.0, slip=slip)
+
+
+def test_friction_goes_from_that_of_touch_down_to_that_of_the_surface_over_the_slip():
+    cold, hot = (HEATING.coefficient(0.3, 300.0, T) for T in (30.0, 80.0))
+    assert cold > hot + 0.1
+    slip = np.array([0.0, 0.2, 1.0, 50.0])
+    expected = cold * np.exp(-slip / 0.2) + hot * (1.0 - np.exp(-slip / 0.2))
+    np.testing.assert_allclose(HEATING.at(warmed(slip)), expected, rtol=1e-12)
+
+
+def test_without_heating_slip_or_what_is_known_of_it_friction_is_that_of_the_surface():
+    at_once = ThermalFriction(law=HuemerFriction(), wlf=WLF())
+    hot = at_once.coefficient(0.3, 300.0, 80.0)
+    assert at_once.at(warmed(0.0)) == hot
+    assert HEATING.at(warmed(np.nan)) == hot
+    assert HEATING.coefficient(0.3, 300.0, 80.0) == hot
 
 
 @pytest.mark.parametrize(

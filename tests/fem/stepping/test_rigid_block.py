@@ -68,3 +68,18 @@ def test_a_rigid_block_that_slides_to_the_left_is_the_mirror_image():
     ends = [slide(velocity) for velocity in (300.0, -300.0)]
     T = [end.snapshots[-1].temperature for end in ends]
     np.testing.assert_allclose(*T, rtol=0.0, atol=1e-10)
+
+
+def test_friction_warms_over_the_slip_since_touch_down():
+    case = {
+        "loading": {
+            "mean_pressure_N_per_mm2": 0.3, "velocity_mm_per_s": 300.0, "distance_mm": 4.0,
+        },
+        "block": {"rigid": True, "mesh": "coarse"},
+    }  # fmt: skip
+    cases = [Case.from_dict(case | {"friction": {"heating_slip_mm": s}}) for s in (0.0, 1.0)]
+    at_once, later = (simulate(case).history for case in cases)
+    hot, force = (h["friction_force_N_per_mm"].to_numpy()[1:] for h in (at_once, later))
+    cold = cases[0].friction.law_object().coefficient(0.3, 300.0, 20.0) * 0.3 * 20.0
+    left = np.exp(-at_once["sliding_distance_mm"].to_numpy()[1:])
+    np.testing.assert_allclose((force - hot) / (cold - hot), left, atol=0.05)
