@@ -129,6 +129,10 @@ def _load(arguments: argparse.Namespace) -> Case:
 
     overrides = dict(parse_override(text) for text in arguments.overrides)
     case = Case.from_toml(arguments.case, overrides)
+    if case.block.file is not None:
+        from fem.stepping import sized
+
+        case = sized(case)
     refuse_unaffordable(case)
     if not arguments.accept_unusual:
         warn(f"{case.source}: {sentence}" for sentence in case.warnings)
@@ -383,6 +387,10 @@ def _check(arguments: argparse.Namespace) -> int:
 
     case = _load(arguments)
     heading = f"{arguments.case}, every key as it is used.\nA run: {estimated_cost(case)}."
+    if not case.block.plain:
+        from fem.stepping import mesh_described
+
+        heading += f"\nThe mesh: {mesh_described(case)}."
     sys.stdout.write(case.to_toml(heading))
     return DONE
 

@@ -4,8 +4,13 @@ A boundary node s and a segment from a to b have the gap ``g = n.(s - a)``, open
 the outward normal of the segment. Penetration is resisted by a stiffness that is not guessed: a
 multiple of the rubber's bulk stiffness over the local element size, so that pressures of the
 order of the material's own can only press a small fraction of an element in. Friction follows
-Coulomb with the same stiffness in stick; the slip is measured along the segment,
+Coulomb with a share of that stiffness in stick; the slip is measured along the segment,
 ``gamma = L_n (xi - xi_n)``. The tangent is consistent [1]_.
+
+During the Newton iteration the normal forces are unknowns of their own, updated by what the linear
+system says (`PairMultipliers`), and pairs open by their sign: the forces of the penetrations at an
+iterate are, before convergence, the stiffness times the error of the positions, so that walls that
+meet along their length would open and close for ever. In a solution both are the same.
 
 Which segment a node meets is chosen outside the Newton iteration and judged by the *accepted*
 state: a node that is behind a segment there lies behind it through the material (a thin wedge
@@ -42,6 +47,10 @@ BEHIND = 0.05
 OVERHANG = 0.02
 #: A closed pair is held until its projection leaves the segment by this share.
 HOLD = 0.1
+#: Tangential over normal stiffness [-]. Walls that meet along their length change between stick and
+#: slip for ever with 1. At the mean pressure a pair that sticks gives way by some thousandths of an
+#: element.
+SHEAR_SHARE = 0.02
 #: Penetration that may go unseen until the next step, relative to the local element size.
 UNSEEN = 0.005
 
@@ -118,6 +127,11 @@ class Pairs:
     mu: float
     orientation: int
 
+    @property
+    def shear_stiffness(self) -> FloatArray:
+        """Tangential force per elastic slip of pairs that stick, per depth [N/mm^2]."""
+        return SHEAR_SHARE * self.stiffness
+
 
 @dataclass(frozen=True, kw_only=True)
 class SegmentGeometry:
@@ -142,12 +156,20 @@ class PairForces:
         Compressive force [N/mm].
     shear : (k,) float array
         Tangential force, conjugate to the slip along the segment [N/mm].
-    slipping : (k,) bool array
-        Whether the friction limit is reached.
+    pressed, slipping : (k,) bool arrays
+        Status asked for: whether the pair touches, and whether the friction limit is reached.
+    drag : (k,) float array
+        Shear per normal force of pairs that slip, with its sign; 0 for others [-].
     slip : (k,) float array
         Slip along the segment since the accepted state [mm].
     residual : (k, 6) float array
         Forces on s, a, b to be added to the internal forces [N/mm].
+    of_gap : (k,) float array
+        Normal force that the gap would make with this status [N/mm].
+    mismatch : float
+        Largest penetration by which the normal forces differ from those [mm].
+    settled : bool
+        Whether the pairs that touch are those that the forces were computed with.
     grad_gap, grad_slip : (k, 6) float arrays
         Gradients of gap and slip.
     """
@@ -155,11 +177,55 @@ class PairForces:
     geometry: SegmentGeometry
     normal: FloatArray
     shear: FloatArray
+    pressed: NDArray[np.bool_]
     slipping: NDArray[np.bool_]
+    drag: FloatArray
     slip: FloatArray
     residual: FloatArray
+    of_gap: FloatArray
+    mismatch: float
+    settled: bool
     grad_gap: FloatArray
     grad_slip: FloatArray
+
+    @property
+    def pending(self) -> FloatArray:
+        """Forces on s, a, b that the gaps would make, less those there are, (k, 6) [N/mm]."""
+        normal = self.of_gap - self.normal
+        return normal[:, None] * (self.drag[:, None] * self.grad_slip - self.grad_gap)
+
+    @property
+    def signature(self) -> bytes:
+        """Name of the status asked for."""
+        return (self.pressed * (1 + self.slipping)).astype(np.int8).tobytes()
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairMultipliers:
+    """Normal forces of the pairs by the linear system that gave an iterate, arrays (k,).
+
+    Attributes
+    ----------
+    normal : float array
+        Forces [N/mm]; a negative one asks for the pair to open.
+    pressed : bool array
+        Pairs that the linear system held together.
+    """
+
+    normal: FloatArray
+    pressed: NDArray[np.bool_]
+
+    def carried(self, old: Pairs, new: Pairs) -> PairMultipliers:
+        """The same forces for another set of pairs; none on pairs that `old` has not."""
+        # One more entry, of nothing, for the pairs that are not among the old.
+        none = len(old.nodes)
+        places = {tuple(row): i for i, row in enumerate(old.nodes.tolist())}
+        place = np.array(
+            [places.get(tuple(row), none) for row in new.nodes.tolist()], dtype=np.int64
+        )
+        return PairMultipliers(
+            normal=np.append(self.normal, 0.0)[place], pressed=np.append(self.pressed, False)[place]
+        )
 
 
 def segment_geometry(
@@ -187,26 +253,49 @@ def _shapes(xi: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.column_stack([one, xi - 1.0, -xi]), np.column_stack([zero, -one, one])
 
 
-def pair_forces(pairs: Pairs, x: FloatArray) -> PairForces:
-    """Forces of the pairs at current coordinates `x` (n, 2) [mm]."""
+def pair_forces(
+    pairs: Pairs, x: FloatArray, multipliers: PairMultipliers | None = None
+) -> PairForces:
+    """Forces of the pairs at current coordinates `x` (n, 2) [mm].
+
+    Those of the multipliers, or of the gaps and slips without them.
+    """
     geometry = _geometry(pairs, x)
     relative, edge = _shapes(geometry.xi)
     grad_gap = _spread(geometry.n, relative)
     ratio = (geometry.gap / geometry.L)[:, None]
     grad_xi = _spread(geometry.t, relative) + ratio * _spread(geometry.n, edge)
     grad_slip = (pairs.L_n / geometry.L)[:, None] * grad_xi
-    normal = pairs.stiffness * np.maximum(-geometry.gap, 0.0)
     slip = pairs.L_n * (geometry.xi - pairs.xi_n)
-    trial = pairs.shear_n + pairs.stiffness * slip
-    limit = pairs.mu * normal
-    slipping = np.abs(trial) > limit
-    shear = np.where(slipping, np.sign(trial) * limit, trial)
-    shear = np.where(normal > 0.0, shear, 0.0)
+    of_gap = -pairs.stiffness * geometry.gap
+    pressed, normal, settled = of_gap > 0.0, np.maximum(of_gap, 0.0), True
+    if multipliers is not None:
+        pressed = np.where(multipliers.pressed, multipliers.normal > 0.0, pressed)
+        normal = np.where(multipliers.pressed & pressed, multipliers.normal, 0.0)
+        settled = np.array_equal(pressed, multipliers.pressed)
+    of_slip = pairs.shear_n + pairs.shear_stiffness * slip
+    slipping, sense = np.abs(of_slip) > pairs.mu * normal, np.sign(of_slip)
+    shear = np.where(pressed, np.where(slipping, sense * pairs.mu * normal, of_slip), 0.0)
+    difference = np.where(pressed, np.abs(of_gap - normal) / pairs.stiffness, 0.0)
     residual = -normal[:, None] * grad_gap + shear[:, None] * grad_slip
     return PairForces(
-        geometry=geometry, normal=normal, shear=shear, slipping=slipping, slip=slip,
-        residual=residual, grad_gap=grad_gap, grad_slip=grad_slip,
+        geometry=geometry, normal=normal, shear=shear, pressed=pressed, slipping=slipping,
+        drag=np.where(pressed & slipping, sense * pairs.mu, 0.0), slip=slip, residual=residual,
+        of_gap=np.where(pressed, of_gap, 0.0), mismatch=float(difference.max(initial=0.0)),
+        settled=settled, grad_gap=grad_gap, grad_slip=grad_slip,
     )  # fmt: skip
+
+
+def multiplier_step(pairs: Pairs, forces: PairForces, du: FloatArray) -> PairMultipliers:
+    """Change of the forces to those that a displacement `du` (n, 2) leads to, linearised."""
+    gap = np.sum(forces.grad_gap * du[pairs.nodes].reshape(-1, 6), axis=1)
+    normal = np.where(forces.pressed, forces.of_gap - pairs.stiffness * gap, 0.0)
+    return PairMultipliers(normal=normal - forces.normal, pressed=forces.pressed)
+
+
+def multipliers_after(forces: PairForces, step: PairMultipliers, alpha: float) -> PairMultipliers:
+    """Forces after a share `alpha` of a step of `multiplier_step`."""
+    return PairMultipliers(normal=forces.normal + alpha * step.normal, pressed=step.pressed)
 
 
 def dissipation(pairs: Pairs, forces: PairForces) -> FloatArray:
@@ -214,7 +303,7 @@ def dissipation(pairs: Pairs, forces: PairForces) -> FloatArray:
 
     The work of the tangential force less what its elastic part stores; never negative.
     """
-    stored = (forces.shear**2 - pairs.shear_n**2) / (2.0 * pairs.stiffness)
+    stored = (forces.shear**2 - pairs.shear_n**2) / (2.0 * pairs.shear_stiffness)
     work = 0.5 * (forces.shear + pairs.shear_n) * forces.slip
     return np.where(forces.slipping, np.maximum(work - stored, 0.0), 0.0)
 
@@ -238,16 +327,15 @@ def pair_tangents(pairs: Pairs, forces: PairForces) -> FloatArray:
     hess_xi = (
         _symmetric(N_s, N_0) / L**2 - _symmetric(T_0, grad_xi) / L - g / L**3 * _symmetric(N_0, T_0)
     )
-    pressed = forces.normal > 0.0
+    pressed = forces.pressed
     stiffness = np.where(pressed, pairs.stiffness, 0.0)[:, None, None]
     K = stiffness * _outer(forces.grad_gap, forces.grad_gap)
     K -= forces.normal[:, None, None] * hess_gap
     K += (forces.shear * pairs.L_n)[:, None, None] * hess_xi
     sticks = (pressed & ~forces.slipping)[:, None, None]
-    K += np.where(sticks, stiffness * _outer(forces.grad_slip, forces.grad_slip), 0.0)
+    K += np.where(sticks, SHEAR_SHARE * stiffness * _outer(forces.grad_slip, forces.grad_slip), 0.0)
     # Sliding friction follows the normal force: d(shear) = -sign mu k d(gap).
-    drag = np.where(forces.slipping, np.sign(forces.shear) * pairs.mu, 0.0)[:, None, None]
-    K -= drag * stiffness * _outer(forces.grad_slip, forces.grad_gap)
+    K -= forces.drag[:, None, None] * stiffness * _outer(forces.grad_slip, forces.grad_gap)
     return K
 
 

@@ -28,7 +28,8 @@ from fem.results.snapshot import BlockGeometry
 from fem.results.trust import judged
 from fem.solvers.kept_factors import linear_solver
 from fem.stepping.coupled_step import ContactLaws, CoupledModel, CoupledState, SelfContact
-from fem.stepping.model_parts import Progress, mesh_of
+from fem.stepping.model_parts import Progress, mesh_of, sized
+from fem.stepping.per_block import block_summaries
 from fem.stepping.point import RunRecord
 from fem.stepping.run import Run
 from fem.stepping.summary import (
@@ -77,7 +78,7 @@ def coupled_model(case: Case) -> CoupledModel:
 
 def _block_mechanics(case: Case, mesh: BlockMesh) -> BlockMechanics:
     solver = case.solver
-    force = case.loading.mean_pressure_N_per_mm2 * case.block.length_mm
+    force = case.loading.mean_pressure_N_per_mm2 * case.block.pressed_length_mm
     return BlockMechanics(
         mesh,
         Q1P0Elements(mesh, case.rubber.material(), case.rubber.bulk_modulus),
@@ -145,6 +146,7 @@ def simulate(
     'ok'
     """
     _check_types(case, progress, checkpoint)
+    case = sized(case)
     kept_in = Checkpoint(checkpoint, case) if checkpoint is not None else None
     kept = kept_in.read(RunRecord) if kept_in is not None and resume else None
     run = Run(case, coupled_model(case), progress, kept_in)
@@ -220,6 +222,7 @@ def _summary(run: Run, outcome: Outcome) -> dict[str, Any]:
         "program_version": program_version(),
         "sliding_regime": regime.name,
         "stick_slip_cycles": regime.cycles,
+        **block_summaries(history, mechanics.mesh.blocks),
         "warnings": [
             *case.warnings,
             *regime.warnings,

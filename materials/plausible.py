@@ -237,6 +237,9 @@ BLOCK_SIZE = Quantity(
     what="a size of a tread block", unit="mm", possible=(0.1, 1e3), usual=(1.0, 200.0),
     slips=_METRES,
 )  # fmt: skip
+SIPE_WIDTH = Quantity(
+    what="the width of a sipe", unit="mm", possible=(0.02, 20.0), usual=(0.1, 3.0), slips=_METRES
+)
 #: On the bottom of a block.
 POSITION = Quantity(
     what="a position", unit="mm", possible=(0.0, 1e5), usual=(0.0, 1e3), largest=(1.0, np.inf),

@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING
 from fem.files.faces import face
 
 if TYPE_CHECKING:
+    from fem.case.block import MeshSpec
     from fem.case.case import Case, Solver
     from fem.case.errors import CaseError, describe, suggestion
     from fem.case.reading import parse_override, read_toml
     from fem.case.rubber import CONSTANTS, DEFAULT_COMPOUND
-    from fem.case.sections import MOST_PASSES, MeshSpec
+    from fem.case.sections import MOST_PASSES
     from fem.case.template import case_template, study_template
     from fem.case.window import ContactWindow
 else:

@@ -17,12 +17,13 @@ import numpy as np
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from fem.case.base import Section, refuse, refuse_finding
+from fem.case.block import Block
 from fem.case.friction import Friction, enter_laws
 from fem.case.heat import Heat
 from fem.case.loading import Loading
-from fem.case.reading import Source, absolute_files, apply_overrides, read_toml
+from fem.case.reading import Source, absolute_files, apply_overrides, find_mesh_file, read_toml
 from fem.case.rubber import Rubber
-from fem.case.sections import Block, Output, Road, Solver, Wear
+from fem.case.sections import Output, Road, Solver, Wear
 from fem.case.validation import case_error, refuse_unknown_keys
 from fem.case.writing import section_lines
 from materials.plausible import FRICTION, Finding, judge
@@ -185,6 +186,7 @@ class Case(Section):
         enter_laws(Case)
         apply_overrides(source, dict(overrides or {}))
         absolute_files(source)
+        find_mesh_file(source)
         refuse_unknown_keys(source, cls)
         try:
             case = cls.model_validate(source.tables)
@@ -199,11 +201,16 @@ class Case(Section):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the resolved case as nested dictionaries with the keys of the case file."""
-        return self.model_dump(exclude_none=True, by_alias=True)
+        tables = self.model_dump(exclude_none=True, by_alias=True)
+        if self.block.file is not None:
+            # What was not given is that of the file, which has not been looked at here.
+            for key in {"length_mm", "height_mm"} - self.block.model_fields_set:
+                del tables["block"][key]
+        return tables
 
     def physics(self) -> dict[str, Any]:
         """Return the tables of the resolved case that decide the result, all but ``output``."""
-        return {name: table for name, table in self.to_dict().items() if name != "output"}
+        return _content({name: table for name, table in self.to_dict().items() if name != "output"})
 
     def to_toml(self, heading: str = "Resolved case: every key as it is used.") -> str:
         """Return the resolved case as TOML with a comment of meaning and unit at each key."""
@@ -223,3 +230,12 @@ class Case(Section):
         """Return the SHA-256 of what decides the result: of all resolved keys but `[output]`."""
         canonical = json.dumps(self.physics(), sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()
+
+
+def _content(tables: dict[str, Any]) -> dict[str, Any]:
+    """Tables in which a mesh file counts by its content, not by where it lies."""
+    if "file" not in tables["block"]:
+        return tables
+    left_out = ("file", "length_mm", "height_mm")
+    block = {key: value for key, value in tables["block"].items() if key not in left_out}
+    return {**tables, "block": block}

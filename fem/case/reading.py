@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 import stat
 import tomllib
@@ -187,7 +188,7 @@ def _set(source: Source, dotted: str, value: Any) -> None:
             _raise(source.file, ".".join(sections[: depth + 1]), describe(inner), "a table")
         table[section] = dict(inner) if isinstance(inner, dict) else {}
         table = table[section]
-    if key == "parameters" and isinstance(value, str):
+    if (key == "parameters" or dotted == "block.file") and isinstance(value, str):
         # A reference given on the command line is relative to where the command runs.
         value = str(expanded(value, "--set", dotted).absolute())
     table[key] = value
@@ -210,6 +211,7 @@ def _drop_replaced(tables: Table, dotted: str) -> None:
         "rubber.parameters": ("compound", "model", "window", *ALL_CONSTANTS),
         "friction.law": ("window", *all_parameters()),
         "heat.partition.law": ("exponent",),
+        "block.file": ("file_sha256", "length_mm", "height_mm"),
         "friction.parameters": ("law", "window", *all_parameters()),
     }.get(dotted, ())
     *sections, _ = dotted.split(".")
@@ -219,3 +221,25 @@ def _drop_replaced(tables: Table, dotted: str) -> None:
     table = tables.get(sections[-1])
     if replaced and isinstance(table, dict):
         tables[sections[-1]] = {k: v for k, v in table.items() if k not in replaced}
+
+
+def find_mesh_file(source: Source) -> None:
+    """Put the place of a mesh file and the sum of its content in place of its name.
+
+    A file that is gone is no fault where its sum is known: the results of its run can be read.
+    """
+    table = source.tables.get("block")
+    name = table.get("file") if isinstance(table, dict) else None
+    if not isinstance(table, dict) or not isinstance(name, str):
+        return
+    here, known = source.file_of(("block", "file")), table.get("file_sha256")
+    path = (source.folder / expanded(name, here, "block.file")).absolute()
+    if not path.is_file():
+        if known is None:
+            _raise(here, "block.file", f"{describe(name)}, no such file", "a mesh file")
+        return
+    found = hashlib.sha256(path.read_bytes()).hexdigest()
+    if known is not None and known != found:
+        expected = f"{describe(str(known))[:20]}..., the file of before; leave file_sha256 out"
+        _raise(here, "block.file_sha256", f"{name} with another content", expected)
+    table["file"], table["file_sha256"] = str(path), found

@@ -1,97 +1,28 @@
-"""The plain sections of a case file: block, road, solver and output."""
+"""The plain sections of a case file: road, solver and output."""
 
 from __future__ import annotations
 
 from importlib.util import find_spec
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from contact.wear import EnergyWear
-from fem.case.base import Count, Positive, Section, Within, refuse
+from fem.case.base import Positive, Section, Within, refuse
 from materials.plausible import (
-    BLOCK_SIZE,
     CONDUCTIVITY,
     SOLID_DENSITY,
     SPECIFIC_HEAT,
 )
 from materials.thermal import ThermalProperties
 
-#: Elements a mesh may have at most. 250,000 take about ten gigabytes in the sparse solver.
-LARGEST_MESH = 250_000
 #: Passes over friction coefficient and pairs of self-contact that a step can take.
 MOST_PASSES = 6
-_Size = Annotated[Positive, Within(BLOCK_SIZE)]
 _Conductivity = Annotated[Positive, Within(CONDUCTIVITY)]
 _Density = Annotated[Positive, Within(SOLID_DENSITY)]
 _SpecificHeat = Annotated[Positive, Within(SPECIFIC_HEAT)]
 _StepLength = Annotated[float, Field(ge=1e-7, le=1e3, allow_inf_nan=False)]
 _ViscousDistance = Annotated[float, Field(ge=0.0, le=1e6, allow_inf_nan=False)]
-
-
-class MeshSpec(Section):
-    """Cell counts and smallest cells of a graded mesh, fine at the bottom and the leading edge."""
-
-    cells_x: Count = Field(description="cells along the length [-]")
-    cells_y: Count = Field(description="cells over the height [-]")
-    smallest_x_mm: Positive = Field(description="length of the cell at the leading edge [mm]")
-    smallest_y_mm: Positive = Field(description="height of the cell at the bottom [mm]")
-
-    @model_validator(mode="after")
-    def _not_huge(self) -> MeshSpec:
-        cells = self.cells_x * self.cells_y
-        if cells > LARGEST_MESH:
-            refuse(
-                "cells_x",
-                f"{self.cells_x} x {self.cells_y} = {cells} elements",
-                f"at most {LARGEST_MESH} elements",
-            )
-        return self
-
-
-def _name_or_table(value: object) -> str:
-    return "<table>" if isinstance(value, (dict, MeshSpec)) else "<name>"
-
-
-MeshName = Literal["coarse", "default", "fine"]
-Mesh = Annotated[
-    Annotated[MeshName, Tag("<name>")] | Annotated[MeshSpec, Tag("<table>")],
-    Discriminator(_name_or_table),
-]
-
-
-class Block(Section):
-    """The tread block's cross-section."""
-
-    length_mm: _Size = Field(20.0, description="length along the sliding direction [mm]")
-    height_mm: _Size = Field(8.0, description="height from the road to the platen [mm]")
-    mesh: Mesh = Field(
-        "default",
-        description='"coarse", "default", "fine" or a table of cells_x, cells_y, smallest_x_mm, '
-        "smallest_y_mm",
-    )
-    rigid: bool = Field(
-        False, description="true: no deformation, uniform pressure; heat and friction only"
-    )
-
-    @model_validator(mode="after")
-    def _mesh_fits(self) -> Block:
-        if isinstance(self.mesh, MeshSpec):
-            _check_grading("length_mm", self.length_mm, self.mesh.cells_x, "x", self.mesh)
-            _check_grading("height_mm", self.height_mm, self.mesh.cells_y, "y", self.mesh)
-        return self
-
-
-def _check_grading(side: str, size: float, cells: int, axis: str, mesh: MeshSpec) -> None:
-    key = f"smallest_{axis}_mm"
-    uniform = size / cells
-    # A hair of room, so that a uniform mesh may be asked for with a rounded cell size.
-    if getattr(mesh, key) > uniform * (1.0 + 1e-6):
-        refuse(
-            f"mesh.{key}",
-            str(getattr(mesh, key)),
-            f"at most {uniform:.6g}, the cell of a uniform mesh ({side} / cells_{axis})",
-        )
 
 
 class Road(Section):

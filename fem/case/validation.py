@@ -57,7 +57,9 @@ def _walk(
                 expected=_advice(key, fields, location, root),
             )
         inner = _table_model(fields[key].annotation)
-        if inner is not None and isinstance(value, dict):
+        if inner is None:
+            continue
+        if isinstance(value, dict):
             _walk(source, value, inner, here, root)
         for number, item in enumerate(value if isinstance(value, list | tuple) else ()):
             kind = _kind_model(fields[key].annotation, item)

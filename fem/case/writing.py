@@ -31,6 +31,8 @@ def toml_value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, BaseModel):
         value = value.model_dump(exclude_none=True, by_alias=True)
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml_value, value)) + "]"
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key} = {toml_value(v)}" for key, v in value.items()) + "}"
     if isinstance(value, str):

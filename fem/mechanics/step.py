@@ -18,7 +18,16 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csc_matrix
 
 from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
-from contact.self_contact import Boundary, PairForces, Pairs, pair_forces, pair_tangents
+from contact.self_contact import (
+    Boundary,
+    PairForces,
+    PairMultipliers,
+    Pairs,
+    multiplier_step,
+    multipliers_after,
+    pair_forces,
+    pair_tangents,
+)
 from fem.mechanics.account import CellFields, StepEnergies, Strains
 from fem.mechanics.elements import ElementForces, Past, Q1P0Elements, Viscosity, tangent_entries
 from fem.mechanics.state import MechanicalState
@@ -82,12 +91,15 @@ class Iterate:
         Status the iterate was computed with.
     reactions : (m, 2) float array or None
         Nodal forces of the candidates by the linear system that gave the iterate [N/mm].
+    pairs : PairMultipliers or None
+        Forces of self-contact by that system; None: those of the gaps.
     """
 
     u: FloatArray
     p: FloatArray
     status: ContactStatus
     reactions: FloatArray | None = None
+    pairs: PairMultipliers | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,7 +118,7 @@ class StepEvaluation:
         Nodal forces: internal, viscous, inertial and of self-contact, minus the applied ones
         [N/mm].
     residual : (size,) float array
-        Residual of the equations.
+        Residual of the equations, with the forces of self-contact that the gaps would make.
     elements : ElementForces or None
         Element forces and kinematics; None if the iterate is not admissible.
     pairs : PairForces or None
@@ -124,7 +136,8 @@ class StepEvaluation:
     @property
     def signature(self) -> bytes:
         """Name of the status asked for."""
-        return self.status.kind.astype(np.int8).tobytes()
+        road = self.status.kind.astype(np.int8).tobytes()
+        return road if self.pairs is None else road + self.pairs.signature
 
 
 class BlockMechanics:
@@ -404,17 +417,32 @@ class StepProblem:
         nodal = self.nodal_forces(x.u, elements)
         pairs = None
         if self.load.pairs is not None:
-            pairs = pair_forces(self.load.pairs, system.mesh.points + x.u)
+            pairs = pair_forces(self.load.pairs, system.mesh.points + x.u, x.pairs)
             np.add.at(nodal, self.load.pairs.nodes, pairs.residual.reshape(-1, 3, 2))
         status = x.status if first else self._next_status(x, nodal)
         forces = self.contact_forces(x.u, nodal)
         residual = self._residual(nodal, forces, status, self._raised(x.u))
         mismatch = np.abs(elements.pressure_residual * np.sqrt(system.elements.volume)).max()
         merit = max(np.abs(residual).max(), mismatch) / system.tolerance
+        settled = not first and status.same_as(x.status)
+        if pairs is not None:
+            merit = max(merit, pairs.mismatch * system.elements.K_bulk / system.tolerance)
+            settled = settled and pairs.settled
+            if pairs.mismatch > 0.0:
+                of_gaps = nodal + self._pending(pairs)
+                forces = self.contact_forces(x.u, of_gaps)
+                residual = self._residual(of_gaps, forces, status, self._raised(x.u))
         return StepEvaluation(
-            merit=float(merit), settled=not first and status.same_as(x.status),
-            status=status, nodal=nodal, residual=residual, elements=elements, pairs=pairs,
+            merit=float(merit), settled=settled, status=status, nodal=nodal, residual=residual,
+            elements=elements, pairs=pairs,
         )  # fmt: skip
+
+    def _pending(self, pairs: PairForces) -> FloatArray:
+        """Nodal forces of self-contact by the gaps less those by the multipliers, (n, 2)."""
+        assert self.load.pairs is not None
+        pending = np.zeros_like(self.system.mesh.points)
+        np.add.at(pending, self.load.pairs.nodes, pairs.pending.reshape(-1, 3, 2))
+        return pending
 
     def _element_forces(self, x: Iterate) -> ElementForces | None:
         """Forces of the elements, those of the latest iterate kept; None if not admissible."""
@@ -487,7 +515,11 @@ class StepProblem:
         du = system.scatter(step)
         dp = system.elements.pressure_increment(elements, du)
         change = self._force_change(data, pairs, step)
-        return Iterate(u=du, p=dp, status=evaluation.status, reactions=change)
+        multipliers = None
+        if self.load.pairs is not None and evaluation.pairs is not None:
+            multipliers = multiplier_step(self.load.pairs, evaluation.pairs, du)
+            change += self._pending(evaluation.pairs)[system.candidates]
+        return Iterate(u=du, p=dp, status=evaluation.status, reactions=change, pairs=multipliers)
 
     def _force_change(
         self, data: FloatArray, pairs: FloatArray | None, step: FloatArray
@@ -527,7 +559,7 @@ class StepProblem:
         data[system._diagonal] += np.bincount(
             equations[system._numbered], inertia[system._numbered], minlength=system.pattern.size
         )
-        if pairs is None or evaluation.pairs is None or not evaluation.pairs.normal.any():
+        if pairs is None or evaluation.pairs is None or not evaluation.pairs.pressed.any():
             return data, None
         return data, pair_tangents(pairs, evaluation.pairs)
 
@@ -588,11 +620,15 @@ class StepProblem:
         reactions = None
         if direction.reactions is not None:
             reactions = evaluation.nodal[self.system.candidates] + alpha * direction.reactions
+        pairs = None
+        if evaluation.pairs is not None and direction.pairs is not None:
+            pairs = multipliers_after(evaluation.pairs, direction.pairs, alpha)
         return Iterate(
             u=x.u + alpha * direction.u,
             p=x.p + alpha * direction.p,
             status=direction.status,
             reactions=reactions,
+            pairs=pairs,
         )
 
 

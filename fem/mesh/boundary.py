@@ -101,7 +101,7 @@ def named_chains(
     direction : int
         +1 when the leading edge is at the largest x.
     """
-    pieces = [piece for curve in curves for piece in _pieces(points, curve)]
+    pieces = [p for curve in curves for p in _pieces(points, curve) if p.nodes.size]
     blocks = [_block(points[piece.nodes, 0].mean(), breaks, direction) for piece in pieces]
     bottoms = [i for i, piece in enumerate(pieces) if piece.kind == "bottom"]
     chains = []
@@ -158,7 +158,7 @@ def _piece(
 
 
 def _block(x: float, breaks: Sequence[float], direction: int) -> int:
-    return 1 + sum(direction * (x - end) > 0.0 for end in breaks)
+    return 1 + sum(bool(direction * (x - end) > 0.0) for end in breaks)
 
 
 def _name(kind: str, number: int, count: int) -> str:

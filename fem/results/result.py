@@ -197,6 +197,9 @@ def write_summary(directory: str | Path, summary: Mapping[str, Any]) -> None:
     directory = Path(directory)
     clean = {key: plain(value) for key, value in summary.items()}
     row = {**clean, "warnings": joined(clean["warnings"])}
+    for block in row.pop("blocks", []):
+        number = block["block"]
+        row |= {f"block_{number}_{key}": block[key] for key in block if key != "block"}
     text = json.dumps(clean, indent=2, allow_nan=False, ensure_ascii=False)
     table = spreadsheet.csv_text(pd.DataFrame([row]))
     (directory / SUMMARY_CSV).write_text(table, encoding="utf-8")

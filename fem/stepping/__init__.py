@@ -15,7 +15,7 @@ if TYPE_CHECKING:
         RejectedStep,
         SelfContact,
     )
-    from fem.stepping.model_parts import Progress, mesh_of
+    from fem.stepping.model_parts import Progress, mesh_described, mesh_of, sized
     from fem.stepping.point import Records, RunPoint, RunRecord, columns
     from fem.stepping.progress import RunProgress
     from fem.stepping.relaxation import RELAXED_ONSET, relaxed

@@ -10,9 +10,9 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 
+from fem.case.block import MeshSpec
 from fem.case.case import Case
 from fem.case.errors import CaseError
-from fem.case.sections import MeshSpec
 from fem.mesh.grading import NAMED_GRADINGS
 
 #: Elements of the mesh that the factors were measured with.
@@ -63,6 +63,18 @@ class Cost:
         )
 
 
+def _elements(case: Case) -> int:
+    """Number of elements; the mesh of a block that is no rectangle is made to count them."""
+    mesh = case.block.mesh
+    if not case.block.plain:
+        from fem.stepping.model_parts import mesh_of
+
+        return len(mesh_of(case).cells)
+    if isinstance(mesh, MeshSpec):
+        return mesh.cells_x * mesh.cells_y
+    return NAMED_GRADINGS[mesh].cells_x * NAMED_GRADINGS[mesh].cells_y
+
+
 def estimated_cost(case: Case) -> Cost:
     """Estimate steps, time and memory of a run.
 
@@ -73,11 +85,7 @@ def estimated_cost(case: Case) -> Cost:
     >>> str(estimated_cost(Case.from_dict({"loading": loading})))
     'about 2880 elements, 240 steps, 10 s on one core, 0.4 GB'
     """
-    solver, mesh = case.solver, case.block.mesh
-    if isinstance(mesh, MeshSpec):
-        elements = mesh.cells_x * mesh.cells_y
-    else:
-        elements = NAMED_GRADINGS[mesh].cells_x * NAMED_GRADINGS[mesh].cells_y
+    solver, elements = case.solver, _elements(case)
     size, distance = elements / _REFERENCE, case.loading.distance_mm
     longest = max(solver.step_mm_max * solver.steps_scale, solver.step_mm_min)
     scale, kinds = min(solver.steps_scale, 1.0), [p.kind for p in case.loading.phases]

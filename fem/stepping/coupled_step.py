@@ -287,8 +287,11 @@ class CoupledModel:
                     state, target, problem, result, contact,
                     iterations=iterations, hardest=hardest, penetration=penetration,
                 )  # fmt: skip
+            start = replace(result.x, reactions=None)
+            if start.pairs is not None and pairs is not None and next_pairs is not None:
+                start = replace(start, pairs=start.pairs.carried(pairs, next_pairs))
             mu, pairs = mu if mu_settled else mu_next, next_pairs
-            problem, start = problem.again(mu, pairs), replace(result.x, reactions=None)
+            problem = problem.again(mu, pairs)
         return RejectedStep(
             failure=newton.Failure.ITERATIONS, detail="self-contact keeps changing its partners",
             iterations=iterations,

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
+import numpy as np
+
+from fem.case.block import LARGEST_MESH, Block, Sipe
 from fem.case.case import Case
+from fem.case.errors import CaseError
 from fem.mesh.block import BlockMesh, block_mesh
+from fem.mesh.file import MeshFileError, read_mesh
 from fem.mesh.grading import NAMED_GRADINGS, Grading
+from fem.mesh.tread import Slot, TreadShape, quality, shape_of_blocks, tread_mesh
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,15 +26,93 @@ class Progress:
 
 
 def mesh_of(case: Case) -> BlockMesh:
-    """Block mesh of a case, its leading edge on the side of the motion."""
+    """Block mesh of a case, its leading edge on the side of the motion.
+
+    Raises
+    ------
+    CaseError
+        If the outline leaves too little rubber somewhere.
+    """
     block = case.block
-    if isinstance(block.mesh, str):
-        grading = NAMED_GRADINGS[block.mesh]
-    else:
-        spec = block.mesh
-        grading = Grading(
-            cells_x=spec.cells_x, cells_y=spec.cells_y,
-            smallest_x=spec.smallest_x_mm, smallest_y=spec.smallest_y_mm,
-        )  # fmt: skip
     direction = 1 if case.loading.velocity_mm_per_s > 0 else -1
-    return block_mesh(block.length_mm, block.height_mm, grading, direction)
+    if block.file is not None:
+        return _mesh_of_file(case, direction)
+    if block.plain:
+        return block_mesh(block.length_mm, block.height_mm, _grading(block), direction)
+    try:
+        mesh = tread_mesh(_shape(block), _grading(block), block.length_mm, direction)
+    except ValueError as error:
+        found, _, expected = str(error).partition("; expected ")
+        raise CaseError(
+            file=case.source, key="block.sipes", found=found, expected=expected
+        ) from None
+    if len(mesh.cells) > LARGEST_MESH:
+        found, expected = f"{len(mesh.cells)} elements", f"at most {LARGEST_MESH}"
+        raise CaseError(file=case.source, key="block.mesh", found=found, expected=expected)
+    return mesh
+
+
+def _mesh_of_file(case: Case, direction: int) -> BlockMesh:
+    block = case.block
+    assert block.file is not None
+    try:
+        mesh = read_mesh(block.file, direction)
+    except MeshFileError as error:
+        found = f"{Path(block.file).name}: {error.found}"
+        raise CaseError(
+            file=case.source, key="block.file", found=found, expected=error.expected
+        ) from None
+    for key, size in (("length_mm", mesh.top_length), ("height_mm", mesh.height)):
+        if key in block.model_fields_set and not np.isclose(getattr(block, key), size, rtol=1e-6):
+            found, expected = str(getattr(block, key)), f"{size:.9g}, that of the file, or nothing"
+            raise CaseError(file=case.source, key=f"block.{key}", found=found, expected=expected)
+    return mesh
+
+
+def sized(case: Case) -> Case:
+    """The case with the length and the height of the block's file, if it has one."""
+    if case.block.file is None:
+        return case
+    mesh = mesh_of(case)
+    sizes = {"block.length_mm": mesh.top_length, "block.height_mm": mesh.height}
+    return case.with_overrides(sizes)
+
+
+def mesh_described(case: Case) -> str:
+    """Size and quality of the mesh of a case, in a sentence."""
+    mesh = mesh_of(case)
+    angle, ratio = quality(mesh)
+    return (
+        f"{len(mesh.cells)} quadrilaterals, smallest angle {angle:.0f} degrees, longest over "
+        f"shortest side {ratio:.3g} at most, smallest side {mesh.size.min():.3g} mm"
+    )
+
+
+def _grading(block: Block) -> Grading:
+    spec = block.mesh
+    if isinstance(spec, str):
+        return NAMED_GRADINGS[spec]
+    return Grading(
+        cells_x=spec.cells_x, cells_y=spec.cells_y,
+        smallest_x=spec.smallest_x_mm, smallest_y=spec.smallest_y_mm,
+    )  # fmt: skip
+
+
+def _shape(block: Block) -> TreadShape:
+    return shape_of_blocks(
+        length=block.length_mm,
+        height=block.height_mm,
+        blocks=block.blocks,
+        groove=block.groove_mm,
+        base=block.base_mm,
+        chamfers=(block.chamfer_trailing_mm, block.chamfer_leading_mm),
+        sipes=[_slot(sipe) for sipe in block.sipes],
+    )
+
+
+def _slot(sipe: Sipe) -> Slot:
+    angle = np.radians(sipe.angle_deg)
+    return Slot(
+        at=sipe.position_mm, width=float(sipe.width_mm / np.cos(angle)), depth=sipe.depth_mm,
+        slope=float(np.tan(angle)), rounded=sipe.base == "round",
+    )  # fmt: skip

@@ -62,7 +62,7 @@ class _Builder:
     @property
     def force(self) -> float:
         """Force on the platen [N/mm]."""
-        return self.pressure * self.case.block.length_mm
+        return self.pressure * self.case.block.pressed_length_mm
 
     def add(self, number: int, phase: loading.PhaseKind) -> None:
         """Append a phase of the case."""

@@ -22,14 +22,17 @@ def largest(history: pd.DataFrame, column: str) -> float:
     return float(history[column].max()) if len(history) else float("nan")
 
 
-def sliding_means(history: pd.DataFrame) -> dict[str, float]:
+#: What is averaged over the slide.
+MEANS = (
+    "friction_force_N_per_mm",
+    "friction_coefficient",
+    "contact_length_mm",
+    "mean_contact_pressure_N_per_mm2",
+)
+
+
+def sliding_means(history: pd.DataFrame, columns: tuple[str, ...] = MEANS) -> dict[str, float]:
     """Means over the distance slid at full speed: force, coefficient, contact length, pressure."""
-    columns = (
-        "friction_force_N_per_mm",
-        "friction_coefficient",
-        "contact_length_mm",
-        "mean_contact_pressure_N_per_mm2",
-    )
     if history.empty:
         return dict.fromkeys(columns, float("nan"))
     length = history["sliding_distance_mm"].diff().fillna(history["sliding_distance_mm"])

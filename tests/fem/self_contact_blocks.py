@@ -46,7 +46,8 @@ def self_contact_step(system, state, load, *, reach, mu=1.0, passes=8):
         after = followed(pairs, found(u), points + u, boundary)
         if after is pairs:
             break
-        pairs, start = after, replace(result.x, reactions=None)
+        carried = result.x.pairs.carried(pairs, after) if result.x.pairs is not None else None
+        pairs, start = after, replace(result.x, reactions=None, pairs=carried)
     else:
         return None
     forces = result.evaluation.pairs

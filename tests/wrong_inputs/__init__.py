@@ -10,6 +10,7 @@ from tests.wrong_inputs.events import EVENTS
 from tests.wrong_inputs.measured import MEASURED
 from tests.wrong_inputs.memory import MEMORY
 from tests.wrong_inputs.memory_tests import MEMORY_TESTS
+from tests.wrong_inputs.mesh_files import MESH_FILES, OUTLINES
 from tests.wrong_inputs.rows import WrongInput, of_case
 from tests.wrong_inputs.signals import SIGNALS
 from tests.wrong_inputs.texts import READING
@@ -21,4 +22,5 @@ __all__ = ["LOADING", "UNUSUAL_INPUTS", "WRONG_INPUTS", "WrongInput"]
 WRONG_INPUTS = [
     *map(of_case, [*WRONG_CASES, *RANGES, *EVENTS, *SIGNALS, *MEMORY, *SET_SYNTAX]),
     *(UNITS + MEASURED + READING + RIGS + STUDIES + EXPORTS + MEMORY_TESTS),
+    *(MESH_FILES + OUTLINES),
 ]

@@ -13,12 +13,11 @@ from fem.mechanics.step import platen_displacement
 from fem.mesh.block import BlockMesh
 from fem.results.boundary import BoundaryContact, boundary_table
 from fem.results.fitted_window import contact_columns, rubber_columns
-from fem.results.surface_profile import excess_area, interior_peak
 from fem.stepping.audit import EnergyAudit, EnergyAuditor
 from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
 from fem.stepping.moment import Moment
 from fem.stepping.observers.wear import WearRecorder
-from materials.arrays import FloatArray
+from fem.stepping.per_block import block_columns, temperature_columns
 
 
 class HistoryRecorder:
@@ -55,7 +54,8 @@ class HistoryRecorder:
         self.smallest_J = min(self.smallest_J, smallest_J)
         row = self._contact_columns(step)
         row |= {"sliding_distance_mm": moment.distance}
-        row |= temperature_columns(self.mesh, step.after.heat.T, self.case.heat.ambient_C)
+        T_C, ambient_C = step.after.heat.T, self.case.heat.ambient_C
+        row |= temperature_columns(self.mesh, T_C, ambient_C)
         row |= {"newton_iterations": step.iterations}
         row |= energy_columns(self.audit.audit, step.after)
         row |= {"friction_lag_error": step.lag_error}
@@ -64,6 +64,7 @@ class HistoryRecorder:
         row |= {"sticking_nodes": int(status.sticking.sum())}
         row |= {"slipping_nodes": int(status.slipping.sum())}
         row |= self._window_columns(step, strains)
+        row |= block_columns(self.mesh, step.after.contact, T_C, ambient_C)
         self.rows.append(row | self._event_columns(moment))
 
     def _event_columns(self, moment: Moment) -> dict[str, float]:
@@ -71,7 +72,7 @@ class HistoryRecorder:
         row: dict[str, float] = {}
         if self.case.loading.phase:
             row |= {"phase": moment.phase.number, "contact": moment.phase.contact}
-            pressure = moment.step.target.force / self.case.block.length_mm
+            pressure = moment.step.target.force / self.case.block.pressed_length_mm
             row |= {"mean_pressure_N_per_mm2": pressure}
         if self.wear.law.coefficient > 0.0:
             row |= {"wear_volume_mm3_per_mm": self.wear.wear.volume}
@@ -125,23 +126,6 @@ class HistoryRecorder:
             return table
         wear = self.wear.wear
         return table.assign(wear_energy_mJ_per_mm2=wear.energy, wear_depth_um=1e3 * wear.depth)
-
-
-def temperature_columns(mesh: BlockMesh, T_C: FloatArray, ambient_C: float) -> dict[str, float]:
-    """T_max, T_edge and A_T from the nodal temperatures `T_C` (n,).
-
-    A front edge may have rolled under: it is the leading part of a bottom (see `interior_peak`)
-    and the leading face. Of several bottoms the hottest counts, and the sum of their areas.
-    """
-    profiles = [(mesh.from_trailing(chain.nodes), T_C[chain.nodes]) for chain in mesh.bottoms]
-    peaks = [interior_peak(X, T) for X, T in profiles]
-    faces = [T_C[chain.nodes] for chain in mesh.chains if chain.kind == "leading"]
-    edges = [*(peak.T_edge_C for peak in peaks), *T_C[mesh.leading_corners]]
-    return {
-        "T_max_C": max(peak.T_max_C for peak in peaks),
-        "T_edge_C": float(max(*edges, *(face.max(initial=-np.inf) for face in faces))),
-        "A_T_K_mm": sum(excess_area(X, T, ambient_C) for X, T in profiles),
-    }
 
 
 def energy_columns(audit: EnergyAudit, state: CoupledState) -> dict[str, float]:
