@@ -74,12 +74,12 @@ def _table_model(annotation: Any) -> type[BaseModel] | None:
 
 
 def _kind_model(annotation: Any, item: Any) -> type[BaseModel] | None:
-    """The model of a table in an array, told by its `kind`."""
+    """The model of a table in an array, told by its `kind` where there are several."""
     if not isinstance(item, dict):
         return None
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         kind = annotation.model_fields.get("kind")
-        return annotation if kind is not None and kind.default == item.get("kind") else None
+        return annotation if kind is None or kind.default == item.get("kind") else None
     return next(filter(None, (_kind_model(part, item) for part in get_args(annotation))), None)
 
 
