@@ -162,7 +162,7 @@ class _Builder:
         first = path if self.rigid else solver.step_mm_initial
         duration = end - start
         follow = Follow(
-            signal=signal, since=start, end=duration, length=self.case.block.length_mm,
+            signal=signal, since=start, end=duration, length=self.case.block.pressed_length_mm,
             path_max=scale * path, path_initial=scale * first, onset_share=scale * ONSET_SHARE,
             pressure_max=scale * LONGEST_PART * float(signal.p.max()), touches_down=comes_down,
             step_initial=duration, step_max=duration, step_min=1e-7 * duration, **self._common(),
