@@ -12,6 +12,7 @@ from fem.mechanics.step import BlockMechanics
 from fem.mesh.block import block_mesh
 from fem.mesh.grading import NAMED_GRADINGS
 from fem.solvers.direct import SYMMETRIC
+from materials import Prony, Rubber
 from tests.fem.contact_steps import YEOH, load_of, pressed
 
 ROUNDS = 15
@@ -110,6 +111,30 @@ def test_a_law_without_memory_pays_nothing_for_the_seam(benchmark, system, step)
     )
     benchmark.extra_info["seam_over_assembly"] = (asked - direct) / whole
     assert asked - direct < 0.05 * whole
+
+
+def iteration_of(model):
+    """Residual, tangent and solution of the first iterate of a sliding step, evaluated anew."""
+    mesh = block_mesh(20.0, 8.0, NAMED_GRADINGS["default"])
+    elements = Q1P0Elements(mesh, model, 100.0 * YEOH.initial_shear_modulus)
+    system = BlockMechanics(mesh, elements, density=1.207e-9, tolerance=5e-8)
+    state = pressed(system, 5.0, mu=0.3, steps=4, dt=0.02)
+    load = load_of(system, force=5.0, mu=0.3, sweep=0.02, dt=1e-3, viscosity=0.0)
+
+    def iteration():
+        problem = system.step(state, load)
+        x = problem.start()
+        return problem.direction(x, problem.evaluate(x))
+
+    return iteration
+
+
+def test_an_iteration_with_four_branches_costs_at_most_1_4_elastic_ones(benchmark):
+    spectrum = Prony(g=[1.5, 0.8, 0.4, 0.3], tau_s=[1e-4, 1e-3, 1e-2, 1e-1])
+    calls = map(iteration_of, (YEOH, Rubber(elastic=YEOH, viscous=spectrum)))
+    elastic, viscous = benchmark.pedantic(medians, tuple(calls), rounds=1)
+    benchmark.extra_info["viscous_over_elastic"] = viscous / elastic
+    assert viscous < 1.4 * elastic
 
 
 def short_slide(distance):
