@@ -49,7 +49,9 @@ class Solver(Section):
     step_mm_initial: _StepLength = Field(0.02, description="first sliding step [mm]")
     step_mm_max: _StepLength = Field(2.0, description="longest sliding step [mm]")
     step_mm_min: _StepLength = Field(
-        1e-5, description="shortest sliding step before giving up [mm]"
+        1e-5,
+        description="shortest sliding step before giving up, a hundredth of it where nothing damps "
+        "the snaps [mm]",
     )
     newton_iterations_max: Annotated[int, Field(ge=1, le=1000)] = Field(
         25, description="Newton iterations per step at most [-]"

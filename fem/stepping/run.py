@@ -29,6 +29,10 @@ from fem.stepping.programme import programme
 from fem.stepping.relaxation import RELAXED_ONSET, relaxed
 from fem.stepping.step_control import StepController, StepPlan
 
+#: Shortest step where nothing damps the snaps, over the shortest one elsewhere: there only the step
+#: is left to take a snap, or a sudden change of contact, in parts.
+UNDAMPED_STEP_MIN = 0.01
+
 
 class Run:
     """A run between its steps: the accepted state, what observers saw of it, and counts.
@@ -141,7 +145,7 @@ class Run:
             step_max=phase.step_max, step_min=phase.step_min, growth=phase.growth
         )
         if self.model.damping is None:  # steps that fail can only be cut
-            control = replace(control, enough_help=0.0)
+            control = replace(control, enough_help=0.0, step_min=UNDAMPED_STEP_MIN * phase.step_min)
         plan, before = StepPlan(step=phase.step_initial), self.distance
         if number == self.point.phase:
             plan, before = self.point.plan, self.point.distance
