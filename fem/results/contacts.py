@@ -42,8 +42,8 @@ def contacts_table(history: pd.DataFrame, ambient_C: float) -> pd.DataFrame:
     """
     history = history.assign(**{name: 0.0 for name in _ADDED if name not in history})
     rows = [
-        _row(history, touching.index[0], touching.index[-1], ambient_C)
-        for _, touching in history[history["contact_length_mm"] > 0.0].groupby("contact")
+        _row(history, pressed.index[0], pressed.index[-1], ambient_C)
+        for _, pressed in history[history["mean_pressure_N_per_mm2"] > 0.0].groupby("contact")
     ]
     return pd.DataFrame(rows, columns=list(CONTACTS)).astype({"contact": int})
 
@@ -51,10 +51,11 @@ def contacts_table(history: pd.DataFrame, ambient_C: float) -> pd.DataFrame:
 def _row(history: pd.DataFrame, first: int, last: int, ambient_C: float) -> dict[str, float]:
     """Of the steps from `first` to `last`; in the one before them the block was in air.
 
-    The step that leaves the road is no contact any more, but its sums have the last slip.
+    The sums have what it slips while it is lifted off, too.
     """
     end: Any = history.loc[last]
-    left: Any = history.loc[min(last + 1, history.index[-1])]
+    free = history.index[(history.index > last) & (history["contact_length_mm"] == 0.0)]
+    left: Any = history.loc[free[0]] if len(free) else history.iloc[-1]
     before: Any = history.loc[first - 1] if first > 0 else None
 
     def change(column: str) -> float:

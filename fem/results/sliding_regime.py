@@ -71,11 +71,15 @@ def stick_slip_cycles(ratio: ArrayLike) -> int:
 
 def sliding_regime(history: pd.DataFrame) -> SlidingRegime:
     """Regime of a run from its history."""
-    slide = history[history["sliding_distance_mm"] > 0.0] if len(history) else history
+    slide = history[history["velocity_mm_per_s"] != 0.0] if len(history) else history
     if slide.empty:
         return SlidingRegime(name=ONSET)
-    ratio = slide["mean_slip_velocity_mm_per_s"] / slide["velocity_mm_per_s"].abs()
-    cycles = stick_slip_cycles(ratio)
+    ratio = slide["mean_slip_velocity_mm_per_s"].abs() / slide["velocity_mm_per_s"].abs()
+    # A block is caught at the beginning of every contact, and where it turns round.
+    places = [np.sign(slide["velocity_mm_per_s"])]
+    if "contact" in slide:
+        places.append(slide["contact"])
+    cycles = max(stick_slip_cycles(part) for _, part in ratio.groupby(places))
     if cycles >= CYCLES:
         return SlidingRegime(name=STICK_SLIP, cycles=cycles)
     return SlidingRegime(name=STEADY if (ratio >= SLIDING).any() else ONSET, cycles=cycles)

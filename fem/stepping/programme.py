@@ -33,8 +33,9 @@ ONSET_SHARE = 0.2
 #: Longest time in which a block is lifted off [s], its share of the time in air, and how far it is
 #: raised over its height [-].
 LIFTING_TIME, LIFTING_SHARE, LIFTING_HEIGHT = 1e-3, 0.1, 0.5
-#: First step of lifting off, of all of it: the edge unrolls.
-FIRST_LIFT = 0.01
+#: First and longest step of lifting off, of all of it. The edge unrolls and the block springs back:
+#: in longer steps backward Euler would take more energy than a hundredth of the event's work.
+FIRST_LIFT, LONGEST_LIFT = 0.01, 0.03
 
 
 def programme(case: Case) -> list[Phase]:
@@ -184,7 +185,7 @@ class _Builder:
             self.phases.append(
                 LiftOff(
                     time=time, rise=LIFTING_HEIGHT * self.case.block.height_mm,
-                    step_initial=FIRST_LIFT * self.scale, step_max=LONGEST_PART * self.scale,
+                    step_initial=FIRST_LIFT * self.scale, step_max=LONGEST_LIFT * self.scale,
                     step_min=SHORTEST_PART, **common,
                 )
             )  # fmt: skip

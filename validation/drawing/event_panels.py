@@ -74,9 +74,10 @@ def _draw_depth(axes: Axes, result: Result) -> None:
     x = points[np.argmin(np.abs(points[:, 0] - middle)), 0]
     line = np.flatnonzero((np.abs(points[:, 0] - x) < 1e-9) & (points[:, 1] <= DEPTH))
     line = line[np.argsort(points[line, 1])]
-    shown = [result.snapshots[0], *result.snapshots[len(result.snapshots) // 2 :: 4]]
-    shown.append(result.snapshots[-1])
-    first = result.snapshots[0].time_s
+    taken = result.snapshots
+    numbers = sorted({0, len(taken) // 3, max(len(taken) - 2, 0), len(taken) - 1})
+    shown = [taken[number] for number in numbers]
+    first = taken[0].time_s
     for number, snapshot in enumerate(shown):
         share = number / max(len(shown) - 1, 1)
         axes.plot(
