@@ -73,8 +73,8 @@ def test_a_spoilt_run_says_so_in_summary_log_and_both_files(tables, key, tmp_pat
 @pytest.mark.parametrize("rigid", [False, True])
 def test_friction_that_drives_the_block_is_an_error_of_the_energy(rigid, monkeypatch):
     """The case file refuses such laws; the balance must not depend on that."""
-    coefficient = ThermalFriction.coefficient
-    monkeypatch.setattr(ThermalFriction, "coefficient", lambda *given: -coefficient(*given))
+    at = ThermalFriction.at
+    monkeypatch.setattr(ThermalFriction, "at", lambda *given: -at(*given))
     mesh = "coarse" if rigid else case_of().block.mesh.model_dump()
     summary = simulate(case_of(block={"rigid": rigid, "mesh": mesh})).summary
     assert summary["friction_coefficient"] < 0.0
