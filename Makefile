@@ -11,7 +11,7 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence braking clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence braking blocks clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
@@ -28,6 +28,7 @@ help:
 	@echo "make robustness  108 cases from easy to extreme; rewrites validation/robustness.csv and docs/verification.md"
 	@echo "make convergence  to the limit of damping and steps; rewrites its tables and docs/verification.md"
 	@echo "make braking    ten contacts of an ABS event with its pictures, into $(RESULTS)/abs_braking"
+	@echo "make blocks     plain, chamfered and siped blocks and two in a row side by side, into $(RESULTS)/blocks"
 	@echo "make clean      remove results and caches (make distclean: .venv too)"
 
 $(READY): setup.cfg pyproject.toml constraints.txt
@@ -106,6 +107,10 @@ convergence: $(READY)
 
 braking: $(READY)
 	$(BIN)/treadfem run examples/abs_braking.toml -o $(RESULTS)/abs_braking --resume
+
+blocks: $(READY)
+	$(BIN)/treadfem sweep validation/studies/blocks.toml -o $(RESULTS)/blocks --resume
+	$(BIN)/python -m validation.tread_blocks $(RESULTS)/blocks
 
 clean:
 	rm -rf $(RESULTS) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks

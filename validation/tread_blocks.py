@@ -1,0 +1,158 @@
+"""Blocks side by side: plain, chamfered, siped, two in a row (``make blocks`` runs the study).
+
+``python -m validation.tread_blocks DIR`` reads the runs of the study in DIR and writes
+`blocks.csv`, `blocks.png` (temperature and vertical stress at the end) and `blocks_curves.png`
+(force over motion, contact pressure along the road) beside them.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from fem import Case
+from fem.files import write_table
+from fem.results import Result
+from validation.drawing.field_panels import (
+    BlockState,
+    colour_bar,
+    draw_panel,
+    stress_panel,
+    temperature_panel,
+)
+from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
+
+#: Columns of the table, from the summaries of the runs.
+COLUMNS = (
+    "status",
+    "friction_force_N_per_mm",
+    "friction_coefficient",
+    "T_max_C",
+    "T_edge_C",
+    "A_T_K_mm",
+    "contact_length_mm",
+    "mean_contact_pressure_N_per_mm2",
+    "energy_error",
+    "largest_self_penetration",
+    "elements",
+    "newton_iterations",
+)
+
+
+def described(case: Case) -> str:
+    """What the outline of a block is, in words."""
+    block = case.block
+    parts = [f"{len(block.sipes)} sipe{'s' * (len(block.sipes) > 1)}"] if block.sipes else []
+    if block.chamfer_leading_mm or block.chamfer_trailing_mm:
+        parts.append("chamfered")
+    if block.blocks > 1:
+        parts.append(f"{block.blocks} blocks")
+    return ", ".join(parts) or "plain"
+
+
+def blocks_table(results: dict[str, Result]) -> pd.DataFrame:
+    """A row per run; forces and friction work of several blocks per block."""
+    rows = []
+    for name, result in results.items():
+        work = float(result.history["friction_dissipation_mJ_per_mm"].iloc[-1])
+        wear = result.boundary.get("wear_depth_um")
+        rows.append(
+            {"block": name}
+            | {key: result.summary.get(key) for key in COLUMNS}
+            | {
+                "friction_force_per_block_N_per_mm": result.summary["friction_force_N_per_mm"]
+                / result.case.block.blocks,
+                "friction_work_mJ_per_mm": work,
+                "deepest_wear_um": float(wear.max()) if wear is not None else None,
+                "onset_stiffness_N_per_mm2": onset_stiffness(result.history),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def onset_stiffness(history: pd.DataFrame, motion: float = 0.5) -> float:
+    """Friction force over the platen's motion at half a millimetre, a secant [N/mm per mm]."""
+    slide = history[history["sliding_distance_mm"] > 0.0]
+    distance, force = slide["sliding_distance_mm"], slide["friction_force_N_per_mm"]
+    return float(np.interp(motion, distance, force)) / motion
+
+
+@styled
+def draw_states(results: dict[str, Result]) -> Figure:
+    """Draw temperature and vertical stress at the end of each run."""
+    figure = new_figure(PAGE_WIDTH * 1.3, 34.0 * len(results))
+    grid = figure.subplots(len(results), 2, squeeze=False)
+    panels = (
+        (temperature_panel, "temperature [°C]", "neither"),
+        (stress_panel, "vertical stress [N/mm²]", "both"),
+    )
+    for row, (name, result) in zip(grid, results.items(), strict=True):
+        direction = 1 if result.case.loading.velocity_mm_per_s > 0.0 else -1
+        state = BlockState(
+            geometry=result.geometry, snapshot=result.snapshots[-1], direction=direction
+        )
+        for axes, (panel, label, extend) in zip(row, panels, strict=True):
+            field = draw_panel(axes, panel, state, state.whole, title=name)
+            assert field is not None
+            colour_bar(figure, axes, field, label, extend=extend)
+    return figure
+
+
+@styled
+def draw_curves(results: dict[str, Result]) -> Figure:
+    """Draw force per block over motion, and contact pressure along the road at the end."""
+    figure = new_figure(PAGE_WIDTH, 55.0 + 22.0 * len(results))
+    heights = [2.4, *[1.0] * len(results)]
+    force, *pressures = figure.subplots(1 + len(results), 1, height_ratios=heights)
+    for number, (axes, (name, result)) in enumerate(zip(pressures, results.items(), strict=True)):
+        history, colour = result.history, f"C{number}"
+        slide = history[history["sliding_distance_mm"] > 0.0]
+        force.plot(
+            slide["sliding_distance_mm"],
+            slide["friction_force_N_per_mm"] / result.case.block.blocks,
+            color=colour,
+            label=name,
+        )
+        _draw_pressure(axes, result.boundary, name, colour)
+    force.set_xlabel("platen motion [mm]")
+    force.set_ylabel("force per block\n[N/mm]")
+    force.legend(ncols=2, fontsize="small")
+    pressures[-1].set_xlabel("place in the platen's frame [mm]")
+    return figure
+
+
+def _draw_pressure(axes: Axes, boundary: pd.DataFrame, name: str, colour: str) -> None:
+    """Contact pressure of all nodes on the road, each chain a line of its own."""
+    on = boundary[boundary["status"] != "open"]
+    for _, chain in on.groupby(["block", "chain"], sort=False):
+        axes.plot(chain["x_mm"], chain["pressure_N_per_mm2"], ".-", color=colour, ms=2.0, lw=0.8)
+    axes.set_title(name, loc="left", fontsize="small")
+    axes.set_ylabel("p [N/mm²]")
+    axes.set_ylim(0.0, 1.5)
+
+
+def _plainness(case: Case) -> tuple[int, int, float]:
+    block = case.block
+    return block.blocks, len(block.sipes), block.chamfer_leading_mm
+
+
+def main(directory: str) -> None:
+    """Write table and pictures of the runs of a study."""
+    folders = sorted(path.parent for path in Path(directory).glob("runs/*/summary.json"))
+    found = [Result.read(folder) for folder in folders]
+    found.sort(key=lambda result: _plainness(result.case))
+    results = {described(result.case): result for result in found}
+    table = blocks_table(results)
+    write_table(Path(directory) / "blocks.csv", table)
+    save(draw_states(results), Path(directory) / "blocks.png")
+    save(draw_curves(results), Path(directory) / "blocks_curves.png")
+    print(table.to_string(index=False))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
