@@ -9,7 +9,7 @@ on a rigid block (300 mm/s, 0.3 N/mm^2, 40 mm) the default sub-step of 0.5 mm gi
 is 0.05 K below that of sub-steps eight times shorter, for a rise of 22 K.
 
 The heat flow between block and road is implicit in both temperatures, and so is the convection of
-a block in air, whose steps are long. Radiation, and convection beside a contact, use the
+a block at rest, whose steps are long. Radiation, and convection while it slides, use the
 temperature at the start of the sub-step: their coefficients, about 6 and 100 W/(m^2 K), are far
 below the thermal inertia of the top layers.
 
@@ -303,8 +303,8 @@ class HeatModel:
             source += load.bulk_power
         radiating = radiating_length(positions, self.mesh.boundary_edges, covered)
         film = load.convection * radiating if load.convection else None
-        # In contact what is free changes from step to step, and with it the matrix would.
-        implicit = film is not None and not len(load.contact_nodes)
+        # While the block slides what is free changes in each step, and with it the matrix would.
+        implicit = film is not None and load.sweep == 0.0
         return _Interval(
             dt=dt,
             factor=self._factor(reference, dt, film if implicit else None),

@@ -92,6 +92,21 @@ def test_convection_cools_a_half_space_as_the_closed_form_says():
     assert kept + lost == pytest.approx(last["frictional_heat_mJ_per_mm"], rel=1e-6)
 
 
+@pytest.mark.parametrize("where", ["in air", "held"])
+def test_the_strongest_film_over_the_longest_steps_never_cools_below_the_air(where):
+    """Steps at rest grow to seconds, far beyond what an explicit film could bear."""
+    hold = {"kind": "slide", "velocity_mm_per_s": 0.0, "time_s": 30.0}
+    lift = {"kind": "lift", "time_s": 30.0}
+    press = {"kind": "press", "mean_pressure_N_per_mm2": 0.3, "time_s": 1e-3}
+    last = lift if where == "in air" else hold
+    heat = {"convection_W_per_m2K": 1e4}
+    result = simulate(event(press, slide(300.0, time_s=0.02), last, heat=heat))
+    T = result.snapshots[-1].temperature
+    assert T.min() > 20.0 - 1e-6
+    assert T.max() < result.history["T_max_C"].max()
+    assert result.summary["heat_error"] < 1e-10
+
+
 def test_a_track_that_is_met_again_leaves_the_block_warmer_than_a_fresh_road():
     press = {"kind": "press", "mean_pressure_N_per_mm2": 0.3, "time_s": 1e-4}
     lift = {"kind": "lift", "time_s": 0.05}
