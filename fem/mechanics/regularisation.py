@@ -14,12 +14,13 @@ become small. The default weighs both (`make convergence` goes to a hundredth of
 dissipates is audited: `snap_share` in the steps that had no solution without,
 `regularisation_share` in those through which it fades.
 
-Viscoelastic rubber that loses enough at the rate of the snaps carries them itself: it gets none.
+Viscoelastic rubber that loses enough at the rate of the snaps carries them itself: it gets none but
+where no step length has a solution (the sudden lift of a block that slides may have none).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -44,9 +45,12 @@ class SnapDamping:
     strength : (ne, 1) float array
         Modulus times relaxation distance ``G (s + s_edge exp(-(r/R)^2))`` [N/mm], with the
         distance r of the element from the nearest leading corner.
+    last_resort : bool
+        Whether it acts only where no step length has a solution without.
     """
 
     strength: FloatArray
+    last_resort: bool = False
 
     @classmethod
     def from_case(cls, case: Case, mesh: BlockMesh) -> SnapDamping:
@@ -74,11 +78,12 @@ class SnapDamping:
 
 
 def snap_damping(case: Case, mesh: BlockMesh) -> SnapDamping | None:
-    """Damping of a case; None where it has none or its rubber damps the snaps itself."""
+    """Damping of a case, a last resort where its rubber damps the snaps itself; None without."""
     choice = case.solver.snap_damping
-    if choice == "never" or (choice == "auto" and rubber_loss(case) >= ENOUGH_LOSS):
+    if choice == "never":
         return None
-    damping = SnapDamping.from_case(case, mesh)
+    own = choice == "auto" and rubber_loss(case) >= ENOUGH_LOSS
+    damping = replace(SnapDamping.from_case(case, mesh), last_resort=own)
     return damping if damping.strength.any() else None
 
 

@@ -141,11 +141,7 @@ class Run:
         return stoppable(phases)
 
     def _phase(self, number: int, phase: Phase) -> Outcome:
-        control = StepController(
-            step_max=phase.step_max, step_min=phase.step_min, growth=phase.growth
-        )
-        if self.model.damping is None:  # steps that fail can only be cut
-            control = replace(control, enough_help=0.0, step_min=UNDAMPED_STEP_MIN * phase.step_min)
+        control, tried = self._control(phase), 0.0
         plan, before = StepPlan(step=phase.step_initial), self.distance
         if number == self.point.phase:
             plan, before = self.point.plan, self.point.distance
@@ -164,6 +160,7 @@ class Run:
                     )
                 )  # fmt: skip
                 plan = control.accepted(plan, length, attempt.hardest_pass, left, at=stop)
+                tried = 0.0
                 self.point = self._point(number, plan, before)
                 self._report()
                 continue
@@ -172,11 +169,33 @@ class Run:
                 f"{phase.name} {plan.at:.6g}: step {length:.3g} rejected with damping "
                 f"{plan.help:.3g}, {attempt.failure.value}"
             )
-            plan = control.rejected(plan, length)
+            tried = max(tried, length)
+            plan = self._after_failure(control, plan, length, tried)
             if control.exhausted(plan):
                 where = f"{phase.name} {plan.at:.4g}{phase.unit}"
                 return failed(attempt.failure, attempt.detail, where)
         return Outcome(status=OK)
+
+    def _control(self, phase: Phase) -> StepController:
+        """Control of a phase's steps; where rubber damps the snaps itself, failed ones are cut."""
+        control = StepController(
+            step_max=phase.step_max, step_min=phase.step_min, growth=phase.growth
+        )
+        damping = self.model.damping
+        if damping is not None and not damping.last_resort:
+            return control
+        return replace(control, enough_help=0.0, step_min=UNDAMPED_STEP_MIN * phase.step_min)
+
+    def _after_failure(
+        self, control: StepController, plan: StepPlan, length: float, tried: float
+    ) -> StepPlan:
+        """Plan after a failed step; `tried` is the longest that failed at this place."""
+        cut = control.rejected(plan, length)
+        damping = self.model.damping
+        if not control.exhausted(cut) or plan.help > 0.0 or damping is None:
+            return cut
+        self.log.append("no step length has a solution with the rubber's own damping: artificial")
+        return control.helped(cut, tried)
 
     def _attempt(
         self, phase: Phase, plan: StepPlan, stop: float

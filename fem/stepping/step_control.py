@@ -110,6 +110,10 @@ class StepController:
         shorter, bound = length * self.cut, self.caution * length
         return replace(plan, step=shorter, bound=bound, help=level, failed=True)
 
+    def helped(self, plan: StepPlan, length: float) -> StepPlan:
+        """Plan of that length with help, where cuts alone have led nowhere."""
+        return replace(plan, step=length, bound=inf, help=self.first_help, failed=True)
+
     def exhausted(self, plan: StepPlan) -> bool:
         """Whether a step is too small to go on with."""
         return plan.step < self.step_min

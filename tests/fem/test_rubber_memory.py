@@ -7,6 +7,8 @@ import pytest
 
 from fem import Case, Result, simulate
 from fem.mechanics.regularisation import snap_damping
+from fem.newton import Failure
+from fem.stepping.coupled_step import CoupledModel, RejectedStep
 from fem.stepping.model_parts import mesh_of
 from materials import WLF, NeoHooke, OgdenRoxburgh, Prony, Rubber
 from tests.fem.contact_steps import load_of, small_block, solved
@@ -231,4 +233,23 @@ def test_each_element_relaxes_at_its_own_temperature():
 )  # fmt: skip
 def test_rubber_that_damps_at_the_rate_of_the_snaps_gets_no_help(rubber, ambient_C, choice, damped):
     case = case_of(heat={"ambient_C": ambient_C}, solver={"snap_damping": choice}, **rubber)
-    assert (snap_damping(case, mesh_of(case)) is not None) == damped
+    found = snap_damping(case, mesh_of(case))
+    assert (found is not None and not found.last_resort) == damped
+
+
+def test_where_no_step_length_has_a_solution_damping_helps_and_it_is_said(monkeypatch):
+    """A made-up place that steps without damping do not pass."""
+    advance = CoupledModel.advance
+
+    def without_a_solution(model, state, target, help_level=0.0, guess=None):
+        if help_level == 0.0 and 0.1 < state.position < 0.15 and guess is None:
+            return RejectedStep(failure=Failure.STALLED, detail="", iterations=1)
+        return advance(model, state, target, help_level, guess)
+
+    monkeypatch.setattr(CoupledModel, "advance", without_a_solution)
+    result = simulate(case_of(0.3, viscoelastic=SPECTRUM))
+    assert result.summary["status"] == "ok"
+    assert sum("no step length has a solution" in line for line in result.log) > 0
+    assert result.summary["energy_error"] < 0.01
+    never = simulate(case_of(0.3, viscoelastic=SPECTRUM, solver={"snap_damping": "never"}))
+    assert never.summary["status"] == "not converged"

@@ -1,5 +1,7 @@
 """Step lengths after easy, hard and failed steps, and landing on the end."""
 
+from dataclasses import replace
+
 import pytest
 
 from fem.stepping.step_control import StepController, StepPlan, landed
@@ -115,3 +117,14 @@ def test_landing_reaches_the_end_without_a_sliver(step):
 
 def test_a_remainder_equal_to_the_step_up_to_rounding_is_done_in_one():
     assert landed(0.9, 0.1 * (1.0 - 1e-12), 1.0) == 1.0 - 0.9
+
+
+def test_help_where_cuts_have_led_nowhere_begins_at_the_first_length():
+    control = replace(CONTROL, enough_help=0.0)  # cuts come before help
+    plan = StepPlan(step=0.5)
+    while not control.exhausted(plan):
+        plan = control.rejected(plan, plan.step)
+        assert plan.help == 0.0
+    helped = control.helped(plan, 0.5)
+    assert (helped.step, helped.help) == (0.5, control.first_help)
+    assert control.rejected(helped, 0.5).help > helped.help
