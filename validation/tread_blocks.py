@@ -1,8 +1,8 @@
 """Blocks side by side: plain, chamfered, siped, two in a row (``make blocks`` runs the study).
 
 ``python -m validation.tread_blocks DIR`` reads the runs of the study in DIR and writes
-`blocks.csv`, `blocks.png` (temperature and vertical stress at the end) and `blocks_curves.png`
-(force over motion, contact pressure along the road) beside them.
+`blocks.csv`, `blocks.png` (vertical stress and surface temperature at the end) and
+`blocks_curves.png` (force over motion, contact pressure along the road) beside them.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ from validation.drawing.field_panels import (
     colour_bar,
     draw_panel,
     stress_panel,
-    temperature_panel,
 )
 from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
 
@@ -84,22 +83,22 @@ def onset_stiffness(history: pd.DataFrame, motion: float = 0.5) -> float:
 
 @styled
 def draw_states(results: dict[str, Result]) -> Figure:
-    """Draw temperature and vertical stress at the end of each run."""
-    figure = new_figure(PAGE_WIDTH * 1.3, 34.0 * len(results))
-    grid = figure.subplots(len(results), 2, squeeze=False)
-    panels = (
-        (temperature_panel, "temperature [°C]", "neither"),
-        (stress_panel, "vertical stress [N/mm²]", "both"),
-    )
-    for row, (name, result) in zip(grid, results.items(), strict=True):
+    """Draw vertical stress and surface temperature at the end of each run."""
+    figure = new_figure(PAGE_WIDTH * 1.2, 30.0 * len(results))
+    grid = figure.subplots(len(results), 2, squeeze=False, width_ratios=(1.5, 1.0))
+    for (left, right), (name, result) in zip(grid, results.items(), strict=True):
         direction = 1 if result.case.loading.velocity_mm_per_s > 0.0 else -1
         state = BlockState(
             geometry=result.geometry, snapshot=result.snapshots[-1], direction=direction
         )
-        for axes, (panel, label, extend) in zip(row, panels, strict=True):
-            field = draw_panel(axes, panel, state, state.whole, title=name)
-            assert field is not None
-            colour_bar(figure, axes, field, label, extend=extend)
+        field = draw_panel(left, stress_panel, state, state.whole, title=name)
+        assert field is not None
+        colour_bar(figure, left, field, "σ$_y$ [N/mm²]", extend="both")
+        for _, chain in result.boundary.groupby(["block", "chain"], sort=False):
+            if str(chain["chain"].iloc[0]).startswith("bottom"):
+                right.plot(chain["X_mm"], chain["T_C"], color="C3")
+        right.set_ylabel("T [°C]")
+    grid[-1, 1].set_xlabel("X from the trailing corner [mm]")
     return figure
 
 
@@ -133,7 +132,8 @@ def _draw_pressure(axes: Axes, boundary: pd.DataFrame, name: str, colour: str) -
         axes.plot(chain["x_mm"], chain["pressure_N_per_mm2"], ".-", color=colour, ms=2.0, lw=0.8)
     axes.set_title(name, loc="left", fontsize="small")
     axes.set_ylabel("p [N/mm²]")
-    axes.set_ylim(0.0, 1.5)
+    axes.set_yscale("log")
+    axes.set_ylim(0.02, 20.0)
 
 
 def _plainness(case: Case) -> tuple[int, int, float]:

@@ -38,7 +38,8 @@ def event_lines(case: Case, mesh: BlockMesh, *, bonded: bool) -> list[str]:
 
 def top_loads(case: Case, mesh: BlockMesh) -> list[str]:
     """Nodal forces of the mean pressure on the front layer, which carries the back layer along."""
-    force = -case.loading.mean_pressure_N_per_mm2 * mesh.top_length * mesh.top_shares
+    length = case.block.pressed_length_mm
+    force = -case.loading.mean_pressure_N_per_mm2 * length * mesh.top_shares
     pairs = zip((mesh.top + 1).tolist(), force.tolist(), strict=True)
     return [f"{node}, 2, {numbers(value)}" for node, value in pairs]
 

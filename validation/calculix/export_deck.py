@@ -28,7 +28,7 @@ from contact.friction import CoulombFriction
 from fem.case import Case, CaseError
 from fem.files import write_text
 from fem.mesh import BlockMesh
-from fem.stepping import mesh_of
+from fem.stepping import mesh_of, sized
 from validation.calculix.deck_event import PRESSING_TIME, event_lines
 from validation.calculix.deck_material import hyperelastic_card, numbers
 from validation.calculix.deck_mesh import block_lines, free_surface_lines, road_lines, tie_lines
@@ -88,6 +88,7 @@ def input_deck(case: Case, options: DeckOptions | None = None) -> str:
             found="true",
             expected="false: a rigid block has nothing to export",
         )
+    case = sized(case)
     mesh = mesh_of(case)
     lines = [
         *_heading(case, options),

@@ -230,3 +230,18 @@ def test_command_refuses_in_one_line_and_writes_nothing(target, tmp_path, monkey
     assert treadfem.main(["export", str(path), "-o", target]) == 2
     assert capsys.readouterr().err.count("\n") == 1
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_deck_of_a_siped_pair_of_blocks_has_all_curves_and_the_whole_force():
+    """Faces of every wall are in the free surface; the load is that of both blocks."""
+    sipe = {"position_mm": 10.0, "depth_mm": 6.0}
+    case = with_rubber(**NEO_HOOKE).with_overrides(
+        {"block.sipes": [sipe], "block.blocks": 2, "block.mesh": "coarse"}
+    )
+    mesh, cards = mesh_of(case), read_deck(input_deck(case))
+    (surface,) = [card for card in cards if card.parameters.get("NAME") == "FREE"]
+    assert len(surface.rows) == len(mesh.boundary_edges)
+    np.testing.assert_array_equal(np.sort(node_set(cards, "SURFACE")), np.sort(mesh.boundary) + 1)
+    loads = [float(line.split(",")[2]) for line in top_loads(case, mesh)]
+    pressed = case.block.blocks * case.block.length_mm
+    assert sum(loads) == pytest.approx(-case.loading.mean_pressure_N_per_mm2 * pressed, rel=1e-9)
