@@ -50,8 +50,8 @@ class Solver(Section):
     step_mm_max: _StepLength = Field(2.0, description="longest sliding step [mm]")
     step_mm_min: _StepLength = Field(
         1e-5,
-        description="shortest sliding step before giving up, a hundredth of it where nothing damps "
-        "the snaps [mm]",
+        description="shortest sliding step before giving up, a hundredth of it where the "
+        "rubber damps the snaps [mm]",
     )
     newton_iterations_max: Annotated[int, Field(ge=1, le=1000)] = Field(
         25, description="Newton iterations per step at most [-]"

@@ -29,9 +29,9 @@ from fem.stepping.programme import programme
 from fem.stepping.relaxation import RELAXED_ONSET, relaxed
 from fem.stepping.step_control import StepController, StepPlan
 
-#: Shortest step where nothing damps the snaps, over the shortest one elsewhere: there only the step
-#: is left to take a snap, or a sudden change of contact, in parts.
-UNDAMPED_STEP_MIN = 0.01
+#: Shortest step where the rubber itself damps the snaps, over the shortest one elsewhere: there
+#: only the step is left to take a snap, or a sudden change of contact, in parts.
+RUBBER_STEP_MIN = 0.01
 
 
 class Run:
@@ -182,9 +182,11 @@ class Run:
             step_max=phase.step_max, step_min=phase.step_min, growth=phase.growth
         )
         damping = self.model.damping
-        if damping is not None and not damping.last_resort:
+        if damping is None:
+            return replace(control, enough_help=0.0)
+        if not damping.last_resort:
             return control
-        return replace(control, enough_help=0.0, step_min=UNDAMPED_STEP_MIN * phase.step_min)
+        return replace(control, enough_help=0.0, step_min=RUBBER_STEP_MIN * phase.step_min)
 
     def _after_failure(
         self, control: StepController, plan: StepPlan, length: float, tried: float
