@@ -143,6 +143,12 @@ class SegmentGeometry:
     xi: FloatArray
     gap: FloatArray
 
+    @property
+    def shares(self) -> FloatArray:
+        """Shares of the three nodes s, a, b in what acts on the node and on the segment, (k, 3)."""
+        xi = np.clip(self.xi, 0.0, 1.0)
+        return np.column_stack([np.ones_like(xi), 1.0 - xi, xi])
+
 
 @dataclass(frozen=True, kw_only=True)
 class PairForces:
@@ -310,8 +316,7 @@ def dissipation(pairs: Pairs, forces: PairForces) -> FloatArray:
 
 def heat_sources(pairs: Pairs, forces: PairForces, heat: FloatArray) -> tuple[IntArray, FloatArray]:
     """Nodes and shares of the heat of the pairs (k,): half each side, (3 k,) both."""
-    xi = np.clip(forces.geometry.xi, 0.0, 1.0)
-    shares = 0.5 * heat[:, None] * np.column_stack([np.ones_like(xi), 1.0 - xi, xi])
+    shares = 0.5 * heat[:, None] * forces.geometry.shares
     return pairs.nodes.ravel(), shares.ravel()
 
 

@@ -24,6 +24,9 @@ class MechanicalState:
         Status of the contact candidates.
     self_shear : (mb,) float array or None
         Tangential forces of self-contact by boundary node [N/mm]; None where there is none.
+    self_normal : (mb,) float array or None
+        Normal forces of self-contact on each boundary node, those of nodes that press on its
+        segments included [N/mm]; None where there is none.
     rubber : (k, ne, 4) float array or None
         State variables of the rubber at the Gauss points; None of rubber without a memory.
     lost : (ne,) float array or None
@@ -36,5 +39,6 @@ class MechanicalState:
     p: FloatArray
     status: ContactStatus
     self_shear: FloatArray | None = None
+    self_normal: FloatArray | None = None
     rubber: FloatArray | None = None
     lost: FloatArray | None = None

@@ -391,7 +391,10 @@ class CoupledModel:
             bulk=self.mechanics.bulk_power(rubber, target.dt) if self.rubber_heats else None,
         )  # fmt: skip
         self_shear = self._self_shear(problem, result.evaluation)
-        mechanics = problem.end(x, rubber, self_shear)
+        mechanics = replace(
+            problem.end(x, rubber, self_shear),
+            self_normal=self._self_normal(problem, result.evaluation),
+        )
         after = CoupledState(
             time=state.time + target.dt, position=state.position + target.sweep,
             mechanics=mechanics, heat=heat, contact=contact,
@@ -436,6 +439,15 @@ class CoupledModel:
         shear = np.zeros(self.mechanics.boundary.nodes.size)
         np.add.at(shear, pairs.place, forces.shear)
         return shear
+
+    def _self_normal(self, problem: Problem, evaluation: StepEvaluation) -> FloatArray | None:
+        """Normal forces of self-contact on each boundary node."""
+        pairs, forces = problem.load.pairs, evaluation.pairs
+        if pairs is None or forces is None or isinstance(self.mechanics, RigidMechanics):
+            return None
+        on_nodes = np.zeros(len(self.mechanics.mesh.points))
+        np.add.at(on_nodes, pairs.nodes, forces.normal[:, None] * forces.geometry.shares)
+        return on_nodes[self.mechanics.boundary.nodes]
 
     def _heat(
         self, state: CoupledState, target: Target, u: FloatArray, contact: RoadContact,

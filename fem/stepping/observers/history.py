@@ -18,6 +18,7 @@ from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
 from fem.stepping.moment import Moment
 from fem.stepping.observers.wear import WearRecorder
 from fem.stepping.per_block import block_columns, temperature_columns
+from materials.arrays import FloatArray
 
 
 class HistoryRecorder:
@@ -122,10 +123,21 @@ class HistoryRecorder:
                 slip_velocity=contact.slip_velocity,
             ),
         )  # fmt: skip
+        table = table.assign(self_contact_pressure_N_per_mm2=self._self_pressure(state))
         if self.wear.law.coefficient == 0.0:
             return table
         wear = self.wear.wear
         return table.assign(wear_energy_mJ_per_mm2=wear.energy, wear_depth_um=1e3 * wear.depth)
+
+    def _self_pressure(self, state: CoupledState) -> FloatArray:
+        """Pressure of the block on itself at the candidates, per undeformed length [N/mm^2]."""
+        normal = state.mechanics.self_normal
+        if normal is None:
+            return np.zeros(self.mesh.candidates.size)
+        x = self.mesh.points[self.mesh.boundary]
+        half = 0.5 * self.mesh.joined * np.hypot(*np.diff(x, axis=0).T)
+        length = np.append(half, 0.0) + np.append(0.0, half)
+        return np.asarray((normal / length)[self.mesh.is_free])
 
 
 def energy_columns(audit: EnergyAudit, state: CoupledState) -> dict[str, float]:

@@ -204,7 +204,8 @@ def test_an_interrupt_within_a_step_goes_back_to_the_last_finished_one(tmp_path,
 
 def test_a_run_that_does_not_converge_leaves_its_last_step(tmp_path):
     undamped = {"viscous_distance_mm": 0.0, "edge_viscous_distance_mm": 0.0}
-    hopeless = {"newton_iterations_max": 4, "step_mm_min": 1e-2, "tolerance": 1e-10, **undamped}
+    steps = {"step_mm_min": 0.4, "step_mm_initial": 0.4}
+    hopeless = {"newton_iterations_max": 4, "tolerance": 1e-10, **steps, **undamped}
     case, path = case_of({"mesh": SMALL}, 2.0, **hopeless), tmp_path / CHECKPOINT_FILE
     first = simulate(case, checkpoint=path)
     assert first.summary["status"] == "not converged"

@@ -99,3 +99,25 @@ def test_shear_stiffness_falls_with_each_sipe():
         history = slide(distance=0.1, sipes=sipes).history
         forces.append(float(history["friction_force_N_per_mm"].iloc[-1]))
     assert forces[0] > 1.05 * forces[1] > 1.05**2 * forces[2]
+
+
+@pytest.mark.slow
+def test_the_walls_of_a_narrow_sipe_close_under_shear_and_stiffen_the_block():
+    """Against the same sipe ten times as wide; both walls carry the same force."""
+    sipes = {
+        width: [{"position_mm": 10.0, "depth_mm": 6.0, "width_mm": width, "base": "flat"}]
+        for width in (0.1, 1.0)
+    }
+    narrow, wide = (slide(distance=1.0, sipes=sipes[width]) for width in (0.1, 1.0))
+    name = "self_contact_pressure_N_per_mm2"
+    on_walls = narrow.boundary[narrow.boundary["chain"].str.startswith("sipe")]
+    rear, front = (
+        float(np.sum(on_walls[on_walls["chain"] == f"sipe 1 {side}"][name] > 0.01))
+        for side in ("rear", "front")
+    )
+    assert rear > 1
+    assert front > 1
+    assert not wide.boundary[name].any()
+    forces = [run.history["friction_force_N_per_mm"].iloc[-1] for run in (narrow, wide)]
+    assert forces[0] > 1.02 * forces[1]
+    assert narrow.history["self_contact_penetration"].max() < 0.01
