@@ -141,16 +141,25 @@ def is_covered_elsewhere(line: str) -> bool:
     return any(part in line for part in COVERED_BY)
 
 
+#: What cuts an example short, by what it is.
+SHORTER = {
+    "case": " --set loading.distance_mm=1 --set block.mesh=coarse",
+    "event": " --set loading.repeat=1 --set loading.phase.1.time_s=5e-4 --set block.mesh=coarse",
+}
+
+
 def example_lines() -> list[str]:
     """Commands of examples/README.md for every example, cut short, on the README's sweep."""
     commands = [" ".join(line.split()) for line in re.findall(r"`(treadfem [^`]*)`", EXAMPLES)]
-    names = re.findall(r"^\| `(\w+)\.toml` \| case:", EXAMPLES, flags=re.MULTILINE)
-    short = " --set loading.distance_mm=1 --set block.mesh=coarse"
+    kinds = re.findall(r"^\| `(\w+)\.toml` \| (case|event):", EXAMPLES, flags=re.MULTILINE)
     return [
-        line.replace("NAME", name).replace("RESULTS_DIR", "results/my_study")
+        line.replace("RESULTS_DIR", "results/my_study")
         for command in commands
-        for line in [command + short if "NAME" in command else command]
-        for name in (names if "NAME" in command else [""])
+        for line in (
+            [command.replace("NAME", name) + SHORTER[kind] for name, kind in kinds]
+            if "NAME" in command
+            else [command]
+        )
     ]
 
 
