@@ -58,9 +58,13 @@ def test_make_target_exists(words):
 
 
 @pytest.mark.parametrize("text", fenced("toml"))
-def test_case_snippet_is_a_case(text):
+def test_case_snippet_is_a_case(text, tmp_path):
+    signals = (
+        "time_s,velocity_mm_per_s,mean_pressure_N_per_mm2\n0,0,0.2\n0.1,100,0.2\n0.2,100,0.2\n"
+    )
+    (tmp_path / "signals.csv").write_text(signals)
     tables = tomllib.loads(text)
-    Case.from_dict({"loading": LOADING, **tables})
+    Case.from_dict({"loading": LOADING, **tables}, folder=tmp_path)
 
 
 @pytest.mark.parametrize("text", fenced("python"))
