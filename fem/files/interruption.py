@@ -16,12 +16,15 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from types import FrameType
 
 SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
 )
 #: Those that follow a request within that time are the same impatience, not another request [s].
 _ONE_REQUEST_S = 1.0
+#: After which one that came during an import comes again [s].
+_IMPORT_S = 0.02
 
 
 @dataclass
@@ -32,13 +35,31 @@ class _Requests:
     tolerated: float = 0.0
     acted: float = -math.inf
 
-    def heard(self, number: int, frame: object) -> None:
-        """Take a request; with more than are tolerated, raise."""
+    def heard(self, number: int, frame: FrameType | None) -> None:
+        """Take a request; with more than are tolerated, raise.
+
+        One that comes while a module is imported comes again a little later: half a module raises
+        what it likes, and Python may end with another code than the program's.
+        """
+        if _imports(frame):
+            again = threading.Timer(_IMPORT_S, signal.raise_signal, [number])
+            again.daemon = True
+            again.start()
+            return
         self.count += 1
         now = time.monotonic()
         if self.count > self.tolerated and now - self.acted > _ONE_REQUEST_S:
             self.acted = now
             raise KeyboardInterrupt
+
+
+def _imports(frame: FrameType | None) -> bool:
+    """Whether the program stands in an import."""
+    while frame is not None:
+        if frame.f_code.co_filename == "<frozen importlib._bootstrap>":
+            return True
+        frame = frame.f_back
+    return False
 
 
 _requests = _Requests()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import signal
 import threading
+import time
 
 import pytest
 
@@ -91,3 +93,14 @@ def test_in_another_thread_nothing_is_changed():
     thread.start()
     thread.join()
     assert found == [signal.getsignal(signal.SIGTERM)]
+
+
+def test_request_during_an_import_waits_until_the_module_is_whole(tmp_path, monkeypatch):
+    (tmp_path / "slow_module.py").write_text(
+        "import signal\nbefore = 1\nsignal.raise_signal(signal.SIGTERM)\nafter = 2\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with pytest.raises(KeyboardInterrupt), listening():
+        module = importlib.import_module("slow_module")
+        assert module.after == 2
+        time.sleep(10.0)
