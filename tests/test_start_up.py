@@ -11,11 +11,11 @@ HEAVY = ("numpy", "scipy", "pandas", "skfem", "meshio", "matplotlib", "pydantic"
 @pytest.mark.parametrize(
     ("words", "loaded"),
     [
-        (["--help"], set()),
-        (["run", "--help"], set()),
-        (["check", "case.toml"], {"numpy", "pydantic"}),
+        (["--help"], []),
+        (["run", "--help"], []),
+        (["check", "case.toml"], ["numpy", "pydantic"]),
     ],
-    ids=lambda value: " ".join(value),
+    ids=" ".join,
 )
 def test_commands_load_the_packages_they_need_only(words, loaded, tmp_path):
     (tmp_path / "case.toml").write_text(
@@ -30,4 +30,4 @@ def test_commands_load_the_packages_they_need_only(words, loaded, tmp_path):
     ended = subprocess.run(
         [sys.executable, "-c", program], cwd=tmp_path, check=True, capture_output=True, text=True
     )
-    assert set(ended.stderr.split()) == loaded
+    assert ended.stderr.split() == loaded
