@@ -53,9 +53,10 @@ def add_arguments(commands: Any) -> None:
         kind.add_argument("-o", "--output", metavar="DIR", help="folder of the results")
         kind.add_argument("--quiet", action="store_true", help="print nothing but errors")
         kind.add_argument(
-            "--accept-unusual", action="store_true",
+            "--accept-unusual",
+            action="store_true",
             help="no warning of numbers outside their usual range (the result file keeps it)",
-        )  # fmt: skip
+        )
         add(kind)
         kind.set_defaults(command=run)
 
@@ -100,10 +101,12 @@ def _add_hyperelastic(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--mode", choices=MODES, action="append", help="may be repeated")
     parser.add_argument(
-        "--zero", choices=get_args(Zero), default="none",
+        "--zero",
+        choices=get_args(Zero),
+        default="none",
         help="subtract the stress of the first row (preload), or refer the test to the length at "
         "which the loop comes back to zero stress (permanent set)",
-    )  # fmt: skip
+    )
     parser.add_argument("--weights", choices=("equal", "modes", "relative"), default="equal")
     _add_common(parser, "N/mm^2")
 
@@ -134,9 +137,12 @@ def _add_viscoelastic(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--C1", type=_positive, help="WLF constant for histories with T_C")
     parser.add_argument("--C2", type=_positive, metavar="K", help="the other one")
     parser.add_argument(
-        "--T-ref", type=_celsius, metavar="C", dest="T_ref_C",
+        "--T-ref",
+        type=_celsius,
+        metavar="C",
+        dest="T_ref_C",
         help="temperature of the relaxation times (default: 20, or the sweep in the middle)",
-    )  # fmt: skip
+    )
     _add_shifting(parser, vertical=None, expansion=None)
     _add_robust(parser, "N/mm^2, of sweeps relative")
 
@@ -185,9 +191,11 @@ def _add_mullins(parser: argparse.ArgumentParser) -> None:
 def _add_histories(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--mode", choices=MODES, help="of a table without that column (uniaxial)")
     parser.add_argument(
-        "--from-cycle", type=_count, metavar="N",
+        "--from-cycle",
+        type=_count,
+        metavar="N",
         help="rows of earlier cycles load the rubber and are not compared",
-    )  # fmt: skip
+    )
     parser.add_argument(
         "--fix", metavar="NAME=VALUE", type=_fixed, action="append", help="hold a parameter"
     )
@@ -206,19 +214,28 @@ def _given(**options: Any) -> dict[str, Any]:
 def _add_friction(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--law", choices=forms(), default="huemer")
     parser.add_argument(
-        "--wlf", choices=("none", "given", "fit"), default="none",
+        "--wlf",
+        choices=("none", "given", "fit"),
+        default="none",
         help="shift of the speed by T_C: none, with --d1 and --d2, or fitted together",
-    )  # fmt: skip
+    )
     parser.add_argument("--d1", type=_positive, default=CONSTANTS.d1)
     parser.add_argument("--d2", type=_positive, default=CONSTANTS.d2_K, metavar="K")
     parser.add_argument(
-        "--T-ref", type=_celsius, default=20.0, metavar="C", dest="T_ref_C",
+        "--T-ref",
+        type=_celsius,
+        default=20.0,
+        metavar="C",
+        dest="T_ref_C",
         help="temperature of the fitted law (default %(default)g)",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--wlf-T-ref", type=_celsius, metavar="C", dest="wlf_T_ref_C",
+        "--wlf-T-ref",
+        type=_celsius,
+        metavar="C",
+        dest="wlf_T_ref_C",
         help="temperature --d1 and --d2 refer to; they are rebased to --T-ref (default: the same)",
-    )  # fmt: skip
+    )
     _add_common(parser, "of mu")
 
     def calibrate(arguments: argparse.Namespace) -> Outcome:
@@ -244,17 +261,24 @@ def _wlf(arguments: argparse.Namespace) -> WLF:
 
 def _add_wlf(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--T-ref", type=_celsius, metavar="C", dest="T_ref_C",
+        "--T-ref",
+        type=_celsius,
+        metavar="C",
+        dest="T_ref_C",
         help="temperature the constants refer to",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--window", nargs=2, type=_finite, metavar=("LOW", "HIGH"),
+        "--window",
+        nargs=2,
+        type=_finite,
+        metavar=("LOW", "HIGH"),
         help="temperatures used [deg C]; what lies outside is named",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--other-sign", action="store_true",
+        "--other-sign",
+        action="store_true",
         help="the table holds 1/a_T, which rises with temperature",
-    )  # fmt: skip
+    )
     _add_shifting(parser, vertical="auto", expansion=0.0)
 
     def calibrate(arguments: argparse.Namespace) -> Outcome:
@@ -275,17 +299,25 @@ def _add_shifting(
     parser: argparse.ArgumentParser, *, vertical: str | None, expansion: float | None
 ) -> None:
     parser.add_argument(
-        "--vertical", choices=get_args(Vertical), default=vertical,
+        "--vertical",
+        choices=get_args(Vertical),
+        default=vertical,
         help="vertical shift T rho/(T_0 rho_0) of the moduli, none, or the better of the two",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--expansion", type=_not_negative, default=expansion, metavar="PER_K",
+        "--expansion",
+        type=_not_negative,
+        default=expansion,
+        metavar="PER_K",
         help="thermal expansion of the volume, for rho/rho_0 (default: rho stays)",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--T-tolerance", type=_not_negative, metavar="K", dest="T_tolerance_K",
+        "--T-tolerance",
+        type=_not_negative,
+        metavar="K",
+        dest="T_tolerance_K",
         help="rows within that of each other are one sweep (default: 1 K where needed)",
-    )  # fmt: skip
+    )
 
 
 def _add_conductance(parser: argparse.ArgumentParser) -> None:
@@ -302,29 +334,41 @@ def _add_conductance(parser: argparse.ArgumentParser) -> None:
 
 def _add_partition(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--case", metavar="CASE.toml", required=True,
+        "--case",
+        metavar="CASE.toml",
+        required=True,
         help="the block that slid; pressure and velocity come from the data",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--set", metavar="section.key=value", action="append", default=[], dest="overrides",
+        "--set",
+        metavar="section.key=value",
+        action="append",
+        default=[],
+        dest="overrides",
         help="set a key of the case; may be repeated",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--profile", choices=("whole", "peak"), default="whole",
+        "--profile",
+        choices=("whole", "peak"),
+        default="whole",
         help="compare whole temperature profiles (where the data hold some) or their peaks",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--simulations", type=_count, default=MOST_SIMULATIONS, metavar="N",
+        "--simulations",
+        type=_count,
+        default=MOST_SIMULATIONS,
+        metavar="N",
         help="at most that many per pressure and velocity (default %(default)s)",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--workers", type=_count, metavar="N",
-        help="simulations at a time (default: one per core)",
-    )  # fmt: skip
+        "--workers", type=_count, metavar="N", help="simulations at a time (default: one per core)"
+    )
     parser.add_argument(
-        "--intervals", choices=("student", "profile"), default="student",
+        "--intervals",
+        choices=("student", "profile"),
+        default="student",
         help="95 %% intervals from the covariance or the profile of the sum of squares",
-    )  # fmt: skip
+    )
 
     def calibrate(arguments: argparse.Namespace) -> Outcome:
         case = Case.from_toml(arguments.case, dict(map(parse_override, arguments.overrides)))
@@ -353,14 +397,18 @@ def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
 
 def _add_robust(parser: argparse.ArgumentParser, unit: str) -> None:
     parser.add_argument(
-        "--loss", choices=("linear", "soft_l1", "huber", "cauchy"), default="linear",
+        "--loss",
+        choices=("linear", "soft_l1", "huber", "cauchy"),
+        default="linear",
         help="a robust loss bounds the pull of outliers",
-    )  # fmt: skip
+    )
     parser.add_argument("--noise", type=_positive, help=f"residual where that begins [{unit}]")
     parser.add_argument(
-        "--intervals", choices=("student", "profile", "bootstrap"), default="student",
+        "--intervals",
+        choices=("student", "profile", "bootstrap"),
+        default="student",
         help="95 %% intervals from the covariance, the profile or resampling",
-    )  # fmt: skip
+    )
 
 
 def _common(arguments: argparse.Namespace) -> dict[str, Any]:

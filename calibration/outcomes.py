@@ -49,10 +49,21 @@ PARAMETERS_FILE = "parameters.toml"
 
 #: What the summary repeats of a fit's metadata.
 _SAID = (
-    "cycle", "branch", "window", "modes", "zero", "normalisation", "T_ref_C", "vertical_shift",
-    "overlap_error_decades", "tests", "branches", "tau_window_s", "rmse_of_largest_stress",
+    "cycle",
+    "branch",
+    "window",
+    "modes",
+    "zero",
+    "normalisation",
+    "T_ref_C",
+    "vertical_shift",
+    "overlap_error_decades",
+    "tests",
+    "branches",
+    "tau_window_s",
+    "rmse_of_largest_stress",
     "relative_rmse",
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True, kw_only=True)

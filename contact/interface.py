@@ -1,7 +1,5 @@
 """What the interface of rubber and road knows, for the laws of friction, heat and conductance."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

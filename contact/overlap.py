@@ -6,8 +6,6 @@ at its nodes, between integration points that are all sound: at the leading corn
 of the boundary across the next but one, which no search for pairs can prevent.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree

@@ -4,8 +4,6 @@ Case files, error messages, the template, fits, figures and the list of the docu
 names, parameters and labels from here.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

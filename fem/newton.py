@@ -1,7 +1,5 @@
 """Newton iteration with admissibility cuts and a non-monotone line search; it knows no physics."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import Enum
 from typing import Generic, Protocol, TypeVar
@@ -137,9 +135,12 @@ def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[
             direction = problem.direction(x, evaluation)
         except ArithmeticError as error:
             return NewtonResult(
-                x=x, evaluation=evaluation, iterations=iteration + 1,
-                failure=Failure.SINGULAR, detail=str(error),
-            )  # fmt: skip
+                x=x,
+                evaluation=evaluation,
+                iterations=iteration + 1,
+                failure=Failure.SINGULAR,
+                detail=str(error),
+            )
         bound = options.growth_max * max(max(merits[-3:]), options.tolerance)
         step = _line_search(problem, x, evaluation, direction, bound, options.halvings_max)
         if step is None:
@@ -160,9 +161,12 @@ def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[
     if evaluation.settled and evaluation.merit <= options.tolerance:
         return NewtonResult(x=x, evaluation=evaluation, iterations=options.iterations_max)
     return NewtonResult(
-        x=x, evaluation=evaluation, iterations=options.iterations_max,
-        failure=Failure.ITERATIONS, detail=f"last merit {evaluation.merit:.2e}",
-    )  # fmt: skip
+        x=x,
+        evaluation=evaluation,
+        iterations=options.iterations_max,
+        failure=Failure.ITERATIONS,
+        detail=f"last merit {evaluation.merit:.2e}",
+    )
 
 
 class _Progress:

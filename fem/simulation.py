@@ -1,7 +1,5 @@
 """Run a case: build the model, press the block, slide it, and return the tables."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Histories of homogeneous incompressible tests of rubber that remembers."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ depends on the past adds second Piola-Kirchhoff stresses and their tangent, and 
 state of its memory. Asking changes nothing: the caller keeps the state of the steps it accepts.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 

@@ -6,9 +6,7 @@ be meant; it is used, and said. Either way the likely slip is named: a temperatu
 column of degrees Celsius "looks like kelvin (20 deg C)".
 """
 
-from __future__ import annotations
-
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,7 +29,7 @@ class Slip:
             return (np.asarray(number, dtype=float) - self.zero) * self.factor
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Quantity:
     """What a column or a key holds.
 
@@ -57,6 +55,7 @@ class Quantity:
 
     what: str
     unit: str
+    _: KW_ONLY
     possible: tuple[float, float]
     usual: tuple[float, float]
     largest: tuple[float, float] = _NO_LIMIT
@@ -209,103 +208,151 @@ _METRES = (Slip("metres", 1e3), Slip("micrometres", 1e-3), Slip("inches", 25.4))
 
 #: Of rubber or road, measured or reached; rubber decomposes above.
 TEMPERATURE = Quantity(
-    what="a temperature", unit="deg C", possible=(-200.0, 250.0), usual=(-100.0, 150.0),
-    slips=_DEGREES,
-)  # fmt: skip
+    "a temperature", "deg C", possible=(-200.0, 250.0), usual=(-100.0, 150.0), slips=_DEGREES
+)
 #: Of the surroundings, before anything slides.
 START_TEMPERATURE = Quantity(
-    what="a temperature of road and air", unit="deg C", possible=(-90.0, 200.0),
-    usual=(-40.0, 60.0), slips=_DEGREES,
-)  # fmt: skip
+    "a temperature of road and air",
+    "deg C",
+    possible=(-90.0, 200.0),
+    usual=(-40.0, 60.0),
+    slips=_DEGREES,
+)
 #: On a block of rubber, or between it and the road.
 PRESSURE = Quantity(
-    what="a pressure on rubber", unit="N/mm^2", possible=(1e-6, 20.0), usual=(5e-3, 1.5),
-    slips=_PASCALS,
-)  # fmt: skip
+    "a pressure on rubber", "N/mm^2", possible=(1e-6, 20.0), usual=(5e-3, 1.5), slips=_PASCALS
+)
 SPEED = Quantity(
-    what="a sliding speed", unit="mm/s", possible=(1e-6, 1e5), usual=(1e-4, 3e4),
-    largest=(1.0, np.inf), signed=True, slips=(Slip("m/s", 1e3),),
-)  # fmt: skip
+    "a sliding speed",
+    "mm/s",
+    possible=(1e-6, 1e5),
+    usual=(1e-4, 3e4),
+    largest=(1.0, np.inf),
+    signed=True,
+    slips=(Slip("m/s", 1e3),),
+)
 FRICTION = Quantity(
-    what="a friction coefficient", unit="", possible=(0.0, 6.0), usual=(1e-3, 3.0),
-    largest=(0.02, np.inf), zero=True, slips=(Slip("per cent", 1e-2),),
-)  # fmt: skip
+    "a friction coefficient",
+    "",
+    possible=(0.0, 6.0),
+    usual=(1e-3, 3.0),
+    largest=(0.02, np.inf),
+    zero=True,
+    slips=(Slip("per cent", 1e-2),),
+)
 SLIDING_DISTANCE = Quantity(
-    what="a sliding distance", unit="mm", possible=(1e-4, 1e6), usual=(0.5, 5e3), slips=_METRES,
-)  # fmt: skip
+    "a sliding distance", "mm", possible=(1e-4, 1e6), usual=(0.5, 5e3), slips=_METRES
+)
 BLOCK_SIZE = Quantity(
-    what="a size of a tread block", unit="mm", possible=(0.1, 1e3), usual=(1.0, 200.0),
-    slips=_METRES,
-)  # fmt: skip
+    "a size of a tread block", "mm", possible=(0.1, 1e3), usual=(1.0, 200.0), slips=_METRES
+)
 SIPE_WIDTH = Quantity(
-    what="the width of a sipe", unit="mm", possible=(0.02, 20.0), usual=(0.1, 3.0), slips=_METRES
+    "the width of a sipe", "mm", possible=(0.02, 20.0), usual=(0.1, 3.0), slips=_METRES
 )
 #: On the bottom of a block.
 POSITION = Quantity(
-    what="a position", unit="mm", possible=(0.0, 1e5), usual=(0.0, 1e3), largest=(1.0, np.inf),
-    signed=True, zero=True, slips=_METRES,
-)  # fmt: skip
+    "a position",
+    "mm",
+    possible=(0.0, 1e5),
+    usual=(0.0, 1e3),
+    largest=(1.0, np.inf),
+    signed=True,
+    zero=True,
+    slips=_METRES,
+)
 STRETCH = Quantity(
-    what="a stretch (1 is undeformed)", unit="", possible=(0.02, 12.0), usual=(0.2, 9.0),
+    "a stretch (1 is undeformed)",
+    "",
+    possible=(0.02, 12.0),
+    usual=(0.2, 9.0),
     slips=(Slip("strain in per cent", 1e-2, -100.0),),
-)  # fmt: skip
+)
 STRESS = Quantity(
-    what="a nominal stress", unit="N/mm^2", possible=(0.0, 1e3), usual=(0.0, 100.0), signed=True,
-    zero=True, slips=_PASCALS,
-)  # fmt: skip
+    "a nominal stress",
+    "N/mm^2",
+    possible=(0.0, 1e3),
+    usual=(0.0, 100.0),
+    signed=True,
+    zero=True,
+    slips=_PASCALS,
+)
 #: Initial shear modulus of a rubber.
 SHEAR_MODULUS = Quantity(
-    what="a shear modulus of rubber", unit="N/mm^2", possible=(1e-3, 200.0), usual=(0.1, 20.0),
-    slips=_PASCALS,
-)  # fmt: skip
+    "a shear modulus of rubber", "N/mm^2", possible=(1e-3, 200.0), usual=(0.1, 20.0), slips=_PASCALS
+)
 #: Storage and loss modulus over frequency, glass included.
 DYNAMIC_MODULUS = Quantity(
-    what="a modulus", unit="N/mm^2", possible=(1e-5, 2e4), usual=(1e-3, 5e3),
-    largest=(0.05, np.inf), slips=_PASCALS,
-)  # fmt: skip
-FREQUENCY = Quantity(
-    what="a frequency", unit="Hz", possible=(1e-12, 1e12), usual=(1e-6, 1e8),
-)  # fmt: skip
+    "a modulus",
+    "N/mm^2",
+    possible=(1e-5, 2e4),
+    usual=(1e-3, 5e3),
+    largest=(0.05, np.inf),
+    slips=_PASCALS,
+)
+FREQUENCY = Quantity("a frequency", "Hz", possible=(1e-12, 1e12), usual=(1e-6, 1e8))
 RUBBER_DENSITY = Quantity(
-    what="a density of rubber", unit="kg/m^3", possible=(100.0, 6e3), usual=(850.0, 2e3),
+    "a density of rubber",
+    "kg/m^3",
+    possible=(100.0, 6e3),
+    usual=(850.0, 2e3),
     slips=(Slip("g/cm^3", 1e3), Slip("t/mm^3", 1e12)),
-)  # fmt: skip
+)
 SOLID_DENSITY = Quantity(
-    what="a density", unit="kg/m^3", possible=(100.0, 2.5e4), usual=(800.0, 1e4),
+    "a density",
+    "kg/m^3",
+    possible=(100.0, 2.5e4),
+    usual=(800.0, 1e4),
     slips=(Slip("g/cm^3", 1e3), Slip("t/mm^3", 1e12)),
-)  # fmt: skip
+)
 SPECIFIC_HEAT = Quantity(
-    what="a specific heat", unit="kJ/(kg K)", possible=(0.05, 20.0), usual=(0.1, 4.3),
+    "a specific heat",
+    "kJ/(kg K)",
+    possible=(0.05, 20.0),
+    usual=(0.1, 4.3),
     slips=(Slip("J/(kg K)", 1e-3), Slip("mJ/(t K)", 1e-9)),
-)  # fmt: skip
+)
 CONDUCTIVITY = Quantity(
-    what="a thermal conductivity", unit="W/(m K)", possible=(1e-3, 5e3), usual=(0.02, 20.0),
+    "a thermal conductivity",
+    "W/(m K)",
+    possible=(1e-3, 5e3),
+    usual=(0.02, 20.0),
     slips=(Slip("mW/(m K)", 1e-3),),
-)  # fmt: skip
+)
 #: Of metals, too.
 SOLID_CONDUCTIVITY = Quantity(
-    what="a thermal conductivity", unit="W/(m K)", possible=(1e-3, 5e3), usual=(0.02, 500.0),
+    "a thermal conductivity",
+    "W/(m K)",
+    possible=(1e-3, 5e3),
+    usual=(0.02, 500.0),
     slips=(Slip("mW/(m K)", 1e-3),),
-)  # fmt: skip
+)
 CONDUCTANCE = Quantity(
-    what="a gap conductance", unit="W/(m^2 K)", possible=(1e-6, 1e9), usual=(20.0, 1e5), zero=True,
+    "a gap conductance",
+    "W/(m^2 K)",
+    possible=(1e-6, 1e9),
+    usual=(20.0, 1e5),
+    zero=True,
     slips=(Slip("kW/(m^2 K)", 1e3), Slip("N/(mm s K)", 1e3)),
-)  # fmt: skip
+)
 AREA_OF_RISE = Quantity(
-    what="a temperature rise times length", unit="K mm", possible=(0.0, 1e5), usual=(0.0, 2e4),
-    signed=True, zero=True,
-)  # fmt: skip
-TIME = Quantity(what="a time", unit="s", possible=(-1e9, 1e9), usual=(-1e9, 1e6))
+    "a temperature rise times length",
+    "K mm",
+    possible=(0.0, 1e5),
+    usual=(0.0, 2e4),
+    signed=True,
+    zero=True,
+)
+TIME = Quantity("a time", "s", possible=(-1e9, 1e9), usual=(-1e9, 1e6))
 POWER = Quantity(
-    what="a heating power", unit="W", possible=(0.0, 1e6), usual=(0.0, 1e4), zero=True,
+    "a heating power",
+    "W",
+    possible=(0.0, 1e6),
+    usual=(0.0, 1e4),
+    zero=True,
     slips=(Slip("mW", 1e-3),),
-)  # fmt: skip
-WLF_D1 = Quantity(
-    what="a WLF constant d1", unit="", possible=(1e-4, 1e4), usual=(1.0, 200.0),
-)  # fmt: skip
-WLF_D2 = Quantity(
-    what="a WLF constant d2", unit="K", possible=(1.0, 1e5), usual=(10.0, 2e3),
-)  # fmt: skip
+)
+WLF_D1 = Quantity("a WLF constant d1", "", possible=(1e-4, 1e4), usual=(1.0, 200.0))
+WLF_D2 = Quantity("a WLF constant d2", "K", possible=(1.0, 1e5), usual=(10.0, 2e3))
 
 #: What the columns of measured tables hold (stretch and stress are judged together, where read).
 COLUMNS = {

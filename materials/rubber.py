@@ -112,9 +112,14 @@ class Rubber:
     ) -> HomogeneousTest:
         """The same history (see `nominal_stress`) with its energies."""
         return homogeneous_test(
-            self.elastic, self.viscous, self.damage,
-            time_s=time_s, stretch=stretch, mode=mode, T_C=T_C,
-        )  # fmt: skip
+            self.elastic,
+            self.viscous,
+            self.damage,
+            time_s=time_s,
+            stretch=stretch,
+            mode=mode,
+            T_C=T_C,
+        )
 
     @cached_property
     def _elastic_factor(self) -> float:

@@ -3,8 +3,6 @@
 What draws or simulates is imported by the command that needs it.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Callable, Sequence

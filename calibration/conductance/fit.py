@@ -11,8 +11,6 @@ thermocouple's place shifts h. The metadata of the result state how much the rea
 linear between the rows: a row every 10 s or so keeps that error far below the noise.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -19,8 +19,6 @@ References
    Numerical Analysis 14 (1977) 1006-1021.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Literal
 

@@ -8,8 +8,6 @@ left out keeps its default; given thermocouples replace all of the default ones.
 eq. (11) follows.
 """
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Mapping
 from dataclasses import fields

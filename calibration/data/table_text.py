@@ -341,16 +341,22 @@ def _with_points(
         name = next(name for name, found in commas.items() if found)
         at = commas[name][0]
         _refuse(
-            file, repr(columns[name][at]), "decimal points or decimal commas, not both",
-            row=rows[at], column=name,
-        )  # fmt: skip
+            file,
+            repr(columns[name][at]),
+            "decimal points or decimal commas, not both",
+            row=rows[at],
+            column=name,
+        )
     if all(_THOUSANDS.fullmatch(columns[name][i]) for name, at in commas.items() for i in at):
         name = next(name for name, found in commas.items() if found)
         at = commas[name][0]
         _refuse(
-            file, repr(columns[name][at]), "a decimal point (this may be a comma of thousands)",
-            row=rows[at], column=name,
-        )  # fmt: skip
+            file,
+            repr(columns[name][at]),
+            "a decimal point (this may be a comma of thousands)",
+            row=rows[at],
+            column=name,
+        )
     changed = {
         name: [c.replace(",", ".") if _DECIMAL_COMMA.fullmatch(c) else c for c in cells]
         if commas[name]

@@ -180,9 +180,14 @@ def _solve_linear(problem: Problem) -> optimize.OptimizeResult | None:
         return None  # a bound is active: leave it to the iterative solver
     r = problem.residuals(theta)
     return optimize.OptimizeResult(
-        x=theta, fun=r, cost=0.5 * r @ r, success=True, message="linear problem, solved directly",
-        agreeing=1, tried=1,
-    )  # fmt: skip
+        x=theta,
+        fun=r,
+        cost=0.5 * r @ r,
+        success=True,
+        message="linear problem, solved directly",
+        agreeing=1,
+        tried=1,
+    )
 
 
 def _local(
@@ -207,10 +212,18 @@ def _local(
             return None
         try:
             return optimize.least_squares(
-                residuals, start, jac=problem.slopes,
-                bounds=(problem.lower, problem.upper), x_scale="jac", loss=loss, f_scale=noise,
-                ftol=tolerance, xtol=tolerance, gtol=1e-12, max_nfev=steps,
-            )  # fmt: skip
+                residuals,
+                start,
+                jac=problem.slopes,
+                bounds=(problem.lower, problem.upper),
+                x_scale="jac",
+                loss=loss,
+                f_scale=noise,
+                ftol=tolerance,
+                xtol=tolerance,
+                gtol=1e-12,
+                max_nfev=steps,
+            )
         except (ValueError, np.linalg.LinAlgError):
             return None  # the model stopped being finite on the way: another start will do
 

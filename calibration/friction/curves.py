@@ -90,9 +90,17 @@ class _Huemer(FrictionCurve):
         fall = -mu * inverse
         by_s = fall * (b + 2.0 * c * s) * s
         J = np.stack(
-            [power * inverse, inverse, alpha * power * log_p * inverse, -by_s * log_v,
-             fall, fall * s, fall * s * s], axis=1,
-        )  # fmt: skip
+            [
+                power * inverse,
+                inverse,
+                alpha * power * log_p * inverse,
+                -by_s * log_v,
+                fall,
+                fall * s,
+                fall * s * s,
+            ],
+            axis=1,
+        )
         return mu, J, -inverse_m * by_s
 
     def starts(self, p: FloatArray, v: FloatArray, mu: FloatArray, count: int) -> FloatArray:
@@ -131,8 +139,9 @@ class _AnyLaw(FrictionCurve):
             ends = [
                 np.clip(theta[k] + sign * step, self.lower[k], self.upper[k]) for sign in (1, -1)
             ]
-            up, down = (self._mu(np.where(np.arange(theta.size) == k, end, theta), p, v)
-                        for end in ends)  # fmt: skip
+            up, down = (
+                self._mu(np.where(np.arange(theta.size) == k, end, theta), p, v) for end in ends
+            )
             J[:, k] = (up - down) / (ends[0] - ends[1])
         faster, slower = (self._mu(theta, p, v * np.exp(sign * _STEP)) for sign in (1, -1))
         return self._mu(theta, p, v), J, (faster - slower) / (2.0 * _STEP)

@@ -245,9 +245,11 @@ def _negative_warnings(law: FrictionLaw, data: FrictionData, speed: FloatArray) 
     if np.any(at_data <= 0.0):
         i = int(np.argmin(at_data))
         data.table.refuse_at(
-            i, "mu", f"a best fit that gives {at_data[i]:.3g} there",
+            i,
+            "mu",
+            f"a best fit that gives {at_data[i]:.3g} there",
             "a law that is positive over its data: another one, or fewer outliers",
-        )  # fmt: skip
+        )
     p, v = (np.geomspace(*limits, 200) for limits in _OF_A_BLOCK)
     positive = law.coefficient(p[:, None], v) > 0.0
     if np.all(positive):

@@ -4,8 +4,6 @@ A row is a slide with its highest interior temperature, or a point of a temperat
 Rows of the same pressure and velocity belong to one condition, which one simulation stands for.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -134,11 +132,16 @@ def read_partition_data(
         table.require_all(deviation, sigma > 0.0, "a standard deviation above 0 K")
     conditions = tuple(
         Condition(
-            pressure=float(p), of_contact=pressure == CONTACT, velocity=float(v), rows=rows,
-            X=None, observed=T[rows], sigma=None if sigma is None else sigma[rows],
+            pressure=float(p),
+            of_contact=pressure == CONTACT,
+            velocity=float(v),
+            rows=rows,
+            X=None,
+            observed=T[rows],
+            sigma=None if sigma is None else sigma[rows],
         )
         for (p, v), rows in _groups(table, [pressure, VELOCITY])
-    )  # fmt: skip
+    )
     if quantity == "T_C":
         conditions = tuple(_with_profile(c, table, place, case, profile) for c in conditions)
         quantity = "T_C" if profile == "whole" else "T_max_C"

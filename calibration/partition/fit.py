@@ -20,8 +20,6 @@ References
    applications", section 3.4 and eq. (14).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -147,15 +145,18 @@ def _check_case(case: Case) -> None:
     """Refuse a case whose block cannot warm up, whatever the partition."""
     if case.heat.partition.cap < SMALLEST:
         raise CaseError(
-            file=case.source, key="heat.partition.cap", found=f"{case.heat.partition.cap:g}",
+            file=case.source,
+            key="heat.partition.cap",
+            found=f"{case.heat.partition.cap:g}",
             expected=f"at least {SMALLEST:g}, a share of the friction power to identify",
-        )  # fmt: skip
+        )
     if not isinstance(case.heat.partition.pressure, str):
         raise CaseError(
-            file=case.source, key="heat.partition.pressure",
+            file=case.source,
+            key="heat.partition.pressure",
             found=f"{case.heat.partition.pressure:g}",
             expected='"mean" or "local": with one fixed pressure the law has no exponent to fit',
-        )  # fmt: skip
+        )
     if case.friction.law == "coulomb" and case.friction.constants.get("mu") == 0.0:
         raise CaseError(
             file=case.source, key="friction.mu", found="0", expected="friction, which makes heat"
@@ -199,9 +200,13 @@ def _corrected(model: PartitionModel, slide: Conditioned, rigid: RigidEstimate) 
     change = slide.largest_change(constant(kappa, model.like))
     pressed = abs(slide.pressure_scale - 1.0) <= PRESSURE_TOLERANCE
     return Simulated(
-        slide=slide, kappa=kappa, rigid_kappa=rigid.kappa, m=rigid.m, platen=slide.next_platen,
+        slide=slide,
+        kappa=kappa,
+        rigid_kappa=rigid.kappa,
+        m=rigid.m,
+        platen=slide.next_platen,
         confirmed=change <= DISCRETE_TOLERANCE_K and pressed,
-    )  # fmt: skip
+    )
 
 
 # -- power law ---------------------------------------------------------------------------------
@@ -326,9 +331,12 @@ def _completed(
     window = {"p_N_per_mm2": [min(p), max(p)], "v_mm_per_s": [min(v), max(v)]}
     warnings = (*result.warnings, *_warnings(slides, law, correction))
     return replace(
-        result, model=law, metadata=metadata, warnings=warnings,
+        result,
+        model=law,
+        metadata=metadata,
+        warnings=warnings,
         section={"heat": {"partition": partition_table(law), "window": window}},
-    )  # fmt: skip
+    )
 
 
 def _warnings(slides: Sequence[Conditioned], law: HeatPartition, correction: float) -> list[str]:

@@ -4,8 +4,6 @@ A folder is named after the case's hash. Those that are missing are simulated si
 interrupted calibration goes on with what it has.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -85,8 +83,9 @@ class SimulationStore:
         try:
             simulate_missing(
                 {folder: case for folder, (case, _) in missing.items()},
-                workers=self.workers, quiet=self.say is None,
-            )  # fmt: skip
+                workers=self.workers,
+                quiet=self.say is None,
+            )
         except StudyError as error:
             raise SimulationStoppedError(f"simulation {error}") from None
         return [_read(folder, label) for folder, (_, label) in zip(folders, wanted, strict=True)]

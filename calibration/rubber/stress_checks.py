@@ -65,9 +65,11 @@ def _refuse_percent(
     usual = judge([G_meant], SHEAR_MODULUS) is None
     if misfit_meant < misfit and usual and judge([G], SHEAR_MODULUS) is not None:
         source.refuse_at(
-            0, "stretch", f"{stretch[0]:g}, a shear modulus of {G:.3g} N/mm^2 as a stretch",
+            0,
+            "stretch",
+            f"{stretch[0]:g}, a shear modulus of {G:.3g} N/mm^2 as a stretch",
             f"a stretch (1 = undeformed); this looks like strain in per cent (G {G_meant:.4g})",
-        )  # fmt: skip
+        )
 
 
 def _neo_hooke(

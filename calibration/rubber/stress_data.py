@@ -220,10 +220,11 @@ def _labelled(
             here = np.flatnonzero((mode == name) & (number == one))
             if strict and not is_in_order_of_recording(stretch[here]):
                 source.refuse_at(
-                    int(here[0]), "stretch",
+                    int(here[0]),
+                    "stretch",
                     f"{name} rows that are in no order of recording",
                     "rows as they were recorded, or a column branch, to tell load from unload",
-                )  # fmt: skip
+                )
             label, branches[here] = label_cycles(stretch[here])
             if cycles is None:
                 found[here] = label

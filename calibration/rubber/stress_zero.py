@@ -77,9 +77,11 @@ def zeroed(
 def _offset(source: Table, stretch: FloatArray, stress: FloatArray, first: int) -> float:
     if abs(stretch[first] - 1.0) > _UNDEFORMED:
         source.refuse_at(
-            first, "stretch", f"{stretch[first]:g} in the first row of its mode",
+            first,
+            "stretch",
+            f"{stretch[first]:g} in the first row of its mode",
             "the undeformed state there (1) to read the preload from",
-        )  # fmt: skip
+        )
     return float(stress[first])
 
 
@@ -104,10 +106,11 @@ def _zero_of_the_loop(
     last = int(crossed[0]) if crossed.size else x.size - 1
     if last == 0 or (not crossed.size and y[last] > _NEARLY_ZERO * y.max()):
         source.refuse_at(
-            int(back[last]), "nominal_stress_N_per_mm2",
+            int(back[last]),
+            "nominal_stress_N_per_mm2",
             f"{stress[back[last]]:g} where the {name} loop ends",
             "an unloading path that comes down to zero stress",
-        )  # fmt: skip
+        )
     i, j = last - 1, last
     if y[i] == y[j]:
         return float(x[j])

@@ -184,10 +184,11 @@ def _sweep(
     places, inverse, counts = np.unique(key, return_inverse=True, return_counts=True)
     if places.size < _LEAST_FREQUENCIES:
         source.refuse_at(
-            int(here[0]), FREQUENCY if source.has(FREQUENCY) else OMEGA,
+            int(here[0]),
+            FREQUENCY if source.has(FREQUENCY) else OMEGA,
             f"{places.size} frequencies at {temperature:g} deg C",
             f"at least {_LEAST_FREQUENCIES} per temperature",
-        )  # fmt: skip
+        )
     mean = {q: np.bincount(inverse, values[here]) / counts for q, values in logs.items()}
     sweep = Sweep(T_C=temperature, x=np.bincount(inverse, log_f[here]) / counts, y=mean, here=here)
     if np.all(counts == 1):
@@ -208,8 +209,10 @@ def one_sweep(source: Table) -> tuple[pd.DataFrame, float | None]:
     values = {name: source.numbers(name) for name in QUANTITIES if source.has(name)}
     if np.unique(f).size < _LEAST_FREQUENCIES:
         source.refuse_at(
-            0, FREQUENCY if source.has(FREQUENCY) else OMEGA,
-            f"{np.unique(f).size} frequencies", f"at least {_LEAST_FREQUENCIES}",
-        )  # fmt: skip
+            0,
+            FREQUENCY if source.has(FREQUENCY) else OMEGA,
+            f"{np.unique(f).size} frequencies",
+            f"at least {_LEAST_FREQUENCIES}",
+        )
     T = float(source.numbers("T_C")[0]) if source.has("T_C") else None
     return pd.DataFrame({"row": source.rows, FREQUENCY: f, **values}), T

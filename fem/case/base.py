@@ -1,7 +1,5 @@
 """What every section of a case file shares: strict frozen models and the kinds of numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, NoReturn

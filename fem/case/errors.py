@@ -1,7 +1,5 @@
 """The one error a case file can raise, and the words it uses for what it found."""
 
-from __future__ import annotations
-
 import difflib
 import json
 import math

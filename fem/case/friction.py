@@ -131,9 +131,12 @@ class Friction(Section):
         """Build the law mu(p, v, T) with its WLF shift."""
         shift = self.shift() if self.wlf else None
         return ThermalFriction(
-            law=self.plain_law(), wlf=shift, T_ref_C=self.T_ref_C, memory_mm=self.memory_mm,
+            law=self.plain_law(),
+            wlf=shift,
+            T_ref_C=self.T_ref_C,
+            memory_mm=self.memory_mm,
             heating_slip_mm=self.heating_slip_mm,
-        )  # fmt: skip
+        )
 
     def shift(self) -> WLF:
         """Build the WLF shift for the temperature of the law, whatever its constants refer to."""

@@ -54,9 +54,12 @@ class Viscoelastic(Section):
         if self.C1 is not None and self.C2_K is not None:
             shift = WLF(d1=self.C1, d2_K=self.C2_K)
         return Prony(
-            g=tuple(self.g), tau_s=tuple(self.tau_s), moduli=self.moduli, shift=shift,
+            g=tuple(self.g),
+            tau_s=tuple(self.tau_s),
+            moduli=self.moduli,
+            shift=shift,
             T_ref_C=self.T_ref_C,
-        )  # fmt: skip
+        )
 
     @property
     def pole_C(self) -> float:

@@ -1,7 +1,5 @@
 """From TOML text to plain tables: files, references to parameter files, and overrides."""
 
-from __future__ import annotations
-
 import hashlib
 import re
 import stat

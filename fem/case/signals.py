@@ -1,7 +1,5 @@
 """Measured velocity and pressure of a rig over time, which a phase of kind "record" follows."""
 
-from __future__ import annotations
-
 import hashlib
 import warnings
 from dataclasses import dataclass

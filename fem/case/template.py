@@ -1,7 +1,5 @@
 """The commented case file that `treadfem template` prints."""
 
-from __future__ import annotations
-
 from fem.case.case import Case
 
 _HEADING = """\

@@ -1,7 +1,5 @@
 """Turns what pydantic finds wrong with a case into one `CaseError`."""
 
-from __future__ import annotations
-
 import re
 from typing import Any, get_args
 

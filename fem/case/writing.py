@@ -1,7 +1,5 @@
 """From a case to TOML text, every key with its meaning and unit."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

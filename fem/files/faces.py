@@ -1,7 +1,5 @@
 """Rooms hand out names of their files, and load a file only when one of its names is asked for."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable
 from importlib import import_module

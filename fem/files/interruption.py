@@ -7,8 +7,6 @@ noted only, and `at_step_ends` says where in there a second one may raise.
 Without `listening` (a script, a notebook) nothing is changed; Python then raises as it always does.
 """
 
-from __future__ import annotations
-
 import math
 import signal
 import threading

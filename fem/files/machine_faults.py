@@ -1,7 +1,5 @@
 """What a machine does to a program (no space, no memory, no such folder), each in one line."""
 
-from __future__ import annotations
-
 import errno
 import os
 

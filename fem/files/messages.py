@@ -1,7 +1,5 @@
 """What every command says in the same way: exit codes, warnings, how a file was understood."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable
 

@@ -4,8 +4,6 @@ What is packed is data only: numbers, texts and arrays. Which classes they becom
 the type hints of the reader, so a file cannot make the reader build anything else.
 """
 
-from __future__ import annotations
-
 import functools
 import types
 import typing

@@ -1,7 +1,5 @@
 """Which program made a result: the released version and a fingerprint of what it computes."""
 
-from __future__ import annotations
-
 import ast
 import hashlib
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """Tables as the text of CSV files that a spreadsheet program opens without running any of it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any

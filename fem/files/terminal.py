@@ -5,8 +5,6 @@ disk behind a redirection, a closed stream or a terminal that has no letter for 
 cost the hours behind it. Inside `lenient_streams` every `print`, bar and warning goes through.
 """
 
-from __future__ import annotations
-
 import codecs
 import errno
 import os

@@ -16,8 +16,6 @@ References
    Cambridge University Press, 2008 (Piola transformation of a flux vector).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

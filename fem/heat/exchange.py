@@ -15,8 +15,6 @@ iteration between the two sides would not (h sqrt(dt) > e). Heat is conserved fo
 iterations, because both sides receive the same q.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

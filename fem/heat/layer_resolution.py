@@ -16,8 +16,6 @@ References
 .. [1] H. S. Carslaw, J. C. Jaeger: Conduction of Heat in Solids, 2nd ed., Oxford, 1959, 2.9.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.special import gammaln, ive
 

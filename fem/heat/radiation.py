@@ -1,7 +1,5 @@
 """Radiation of grey surfaces to surroundings at the ambient temperature."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """What goes into the heat of a step, and what comes out of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a mechanics tells of a step beside its state: energies, invariants and fields."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from materials.arrays import FloatArray

@@ -44,9 +44,11 @@ class RigidMechanics:
         """Block at rest above the road."""
         zeros = np.zeros_like(self.mesh.points)
         return MechanicalState(
-            u=zeros, velocity=zeros, p=np.zeros(len(self.mesh.cells)),
+            u=zeros,
+            velocity=zeros,
+            p=np.zeros(len(self.mesh.cells)),
             status=ContactStatus.all_open(self.candidates.size),
-        )  # fmt: skip
+        )
 
     def above_road(self, state: MechanicalState) -> MechanicalState:
         """The block as it comes down again."""

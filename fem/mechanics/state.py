@@ -1,7 +1,5 @@
 """Accepted mechanical state of the block."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from contact.active_set import ContactStatus

@@ -220,9 +220,12 @@ class BlockMechanics:
         n = len(self.mesh.points)
         zeros = np.zeros((n, 2))
         return MechanicalState(
-            u=zeros, velocity=zeros, p=np.zeros(len(self.mesh.cells)), status=self._touching(zeros),
+            u=zeros,
+            velocity=zeros,
+            p=np.zeros(len(self.mesh.cells)),
+            status=self._touching(zeros),
             rubber=self.elements.virgin,
-        )  # fmt: skip
+        )
 
     def _touching(self, u: FloatArray) -> ContactStatus:
         """Nodes on the road stick."""
@@ -405,9 +408,14 @@ class StepProblem:
             lost = self.system.elements.mean(rubber.viscous)
             lost = lost if self.state.lost is None else self.state.lost + lost
         return MechanicalState(
-            u=x.u, velocity=velocity, p=x.p, status=x.status, self_shear=self_shear,
-            rubber=rubber.state, lost=lost,
-        )  # fmt: skip
+            u=x.u,
+            velocity=velocity,
+            p=x.p,
+            status=x.status,
+            self_shear=self_shear,
+            rubber=rubber.state,
+            lost=lost,
+        )
 
     def _evaluate(self, x: Iterate, first: bool) -> StepEvaluation:
         system = self.system
@@ -433,9 +441,14 @@ class StepProblem:
                 forces = self.contact_forces(x.u, of_gaps)
                 residual = self._residual(of_gaps, forces, status, self._raised(x.u))
         return StepEvaluation(
-            merit=float(merit), settled=settled, status=status, nodal=nodal, residual=residual,
-            elements=elements, pairs=pairs,
-        )  # fmt: skip
+            merit=float(merit),
+            settled=settled,
+            status=status,
+            nodal=nodal,
+            residual=residual,
+            elements=elements,
+            pairs=pairs,
+        )
 
     def _pending(self, pairs: PairForces) -> FloatArray:
         """Nodal forces of self-contact by the gaps less those by the multipliers, (n, 2)."""
@@ -467,17 +480,22 @@ class StepProblem:
         if x.reactions is not None:
             forces = replace(forces, normal=x.reactions[:, 1], tangential=x.reactions[:, 0])
         return next_status(
-            x.status, forces, self.load.mu,
-            force_tolerance=0.1 * self.system.tolerance, slip_tolerance=1e-12,
-        )  # fmt: skip
+            x.status,
+            forces,
+            self.load.mu,
+            force_tolerance=0.1 * self.system.tolerance,
+            slip_tolerance=1e-12,
+        )
 
     def contact_forces(self, u: FloatArray, nodal: FloatArray) -> ContactForces:
         """Gaps, reactions and slips of the candidates."""
         nodes = self.system.candidates
         return ContactForces(
-            gap=self.system.gap(u), normal=nodal[nodes, 1], tangential=nodal[nodes, 0],
+            gap=self.system.gap(u),
+            normal=nodal[nodes, 1],
+            tangential=nodal[nodes, 0],
             slip=self.slip(u),
-        )  # fmt: skip
+        )
 
     def _raised(self, u: FloatArray) -> float:
         """Rise of the platen in the step [mm]."""

@@ -1,7 +1,5 @@
 """Table of the free boundary: where it lies, how it touches the road, how warm it is."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ The file is a NumPy archive of plain arrays and one JSON text. It says which for
 version wrote it and which case it belongs to; what does not fit is refused, never guessed at.
 """
 
-from __future__ import annotations
-
 import hashlib
 import io
 import json

@@ -3,8 +3,6 @@
 Whoever writes or reads a table uses these names; extra columns may follow them.
 """
 
-from __future__ import annotations
-
 #: Energies of the energy audit and of the heat audit, per mm depth and since the start.
 ENERGY = (
     "work_in_mJ_per_mm",

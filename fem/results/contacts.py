@@ -1,7 +1,5 @@
 """The contacts of an event with the road, from touch-down to lift-off, a row each."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

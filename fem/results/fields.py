@@ -1,7 +1,5 @@
 """The fields of a run in one file, `fields.npz`: what reads a run back reads them from there."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path

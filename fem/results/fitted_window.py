@@ -5,8 +5,6 @@ it was guessed. Every accepted step leaves in the history the share of the conta
 the rubber (by area) outside; over the slide these are averaged by contact length and distance.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

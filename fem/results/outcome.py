@@ -1,7 +1,5 @@
 """How a run ended: named outcomes, each with its reason and what to try."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

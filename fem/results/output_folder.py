@@ -1,7 +1,5 @@
 """The folder that results are to go to: it can be written, and it is nobody else's meanwhile."""
 
-from __future__ import annotations
-
 import errno
 import os
 import sys

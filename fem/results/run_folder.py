@@ -5,8 +5,6 @@ for `--resume`, sweeps, figures, claims, calibrations and the report. A run is o
 its keys but those of `[output]` are the same; it is of this program if `program_version` is.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -146,6 +144,8 @@ class RunFolder:
 
     def _refused(self, file: str, key: str, found: str, expected: str) -> CheckpointError:
         return CheckpointError(
-            file=str(self.directory / file), key=key, found=f"{found} in a finished run",
+            file=str(self.directory / file),
+            key=key,
+            found=f"{found} in a finished run",
             expected=f"{expected} {_INSTEAD}",
-        )  # fmt: skip
+        )

@@ -10,8 +10,6 @@ References
 .. [1] Ruina, A., J. Geophys. Res. 88 (1983) 10359-10370.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The fields of one accepted state, as they are written to files and drawn."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 
 import numpy as np

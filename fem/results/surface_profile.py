@@ -3,8 +3,6 @@
 The same two functions serve the simulation and measured profiles, so that both are judged alike.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -3,8 +3,6 @@
 A figure is a key of the summary. Its limit is declared here and nowhere else.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -46,42 +44,49 @@ class Limit:
 #: of the surface temperature is too low, within what the friction coefficient is known to.
 LIMITS = (
     Limit(
-        key="energy_error", largest=0.01,
+        key="energy_error",
+        largest=0.01,
         meaning="share of the energy that is missing in its balance, or that friction made",
         advice="use smaller steps ([solver] steps_scale) and look at the friction coefficient",
     ),
     Limit(
-        key="heat_error", largest=0.01,
+        key="heat_error",
+        largest=0.01,
         meaning="share of the frictional heat that is missing in its balance",
         advice="use smaller steps ([solver] steps_scale, heat_step_mm)",
     ),
     Limit(
-        key="regularisation_share", largest=0.02,
+        key="regularisation_share",
+        largest=0.02,
         meaning="share of the work that the regularisation took in the second half of the slide",
         advice="slide further, or use a finer mesh or less regularisation in [solver]",
     ),
     Limit(
-        key="friction_lag_share", largest=0.02,
+        key="friction_lag_share",
+        largest=0.02,
         meaning="share of the friction work by which the coefficient lags behind its contact",
         advice="use more [solver] friction_passes or smaller steps (steps_scale)",
     ),
     Limit(
-        key="largest_self_penetration", largest=0.01,
+        key="largest_self_penetration",
+        largest=0.01,
         meaning="depth by which the block penetrates itself, over the local element size",
         advice="switch [solver] self_contact on",
     ),
     Limit(
-        key="heat_layer_error", largest=0.02,
+        key="heat_layer_error",
+        largest=0.02,
         meaning="share by which the rise of the surface temperature is too low on this mesh",
         advice="use flatter cells at the bottom ([block] mesh: smallest_y_mm, finer) or a "
         "smaller [solver] heat_step_mm",
     ),
     Limit(
-        key="road_layer_error", largest=0.05,
+        key="road_layer_error",
+        largest=0.05,
         meaning="share by which the rise of the road's surface temperature is too low",
         advice="use a smaller [solver] heat_step_mm; the contact of each road point is short",
     ),
-)  # fmt: skip
+)
 
 
 def warnings_of(summary: Mapping[str, Any]) -> list[str]:

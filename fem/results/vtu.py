@@ -4,8 +4,6 @@ Nothing in this program reads it back.
 Cell order of VTK's symmetric tensors is XX, YY, ZZ, XY, YZ, XZ.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

@@ -6,8 +6,6 @@ References
 .. [2] Saad, Y., Schultz, M. H., SIAM J. Sci. Stat. Comput. 7 (1986) 856-869.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

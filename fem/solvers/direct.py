@@ -12,8 +12,6 @@ References
    performance while achieving 64-bit accuracy", ACM Trans. Math. Software 34 (2008) article 17.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from typing import Any, Protocol
@@ -197,9 +195,12 @@ class SinglePrecisionSolver:
         except RuntimeError:
             return None
         x, _ = conjugate_residuals(
-            matrix, rhs, self.solve_again,
-            tolerance=self.relative_residual, iterations_max=self.refinements_max,
-        )  # fmt: skip
+            matrix,
+            rhs,
+            self.solve_again,
+            tolerance=self.relative_residual,
+            iterations_max=self.refinements_max,
+        )
         return x
 
 

@@ -6,8 +6,6 @@ preconditioned with the factors of an earlier iteration, then need up to ten ite
 a solution with existing factors, which is about 1/15 of a factorisation.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -89,9 +87,12 @@ class KeptFactorsSolver:
     def _iterated(self, matrix: csc_matrix, rhs: FloatArray) -> FloatArray | None:
         """Solution with the kept factors; None if it takes too many iterations."""
         x, count = conjugate_residuals(
-            matrix, rhs, self.direct.solve_again,
-            tolerance=self.relative_residual, iterations_max=self.iterations_max,
-        )  # fmt: skip
+            matrix,
+            rhs,
+            self.direct.solve_again,
+            tolerance=self.relative_residual,
+            iterations_max=self.iterations_max,
+        )
         self.iterations += count
         self._usable = count <= self.aged
         return x

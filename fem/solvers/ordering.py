@@ -11,8 +11,6 @@ References
 .. [1] George, A., SIAM J. Numer. Anal. 10 (1973) 345-363.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Adds up the time spent in some of the work."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass, field
 from types import TracebackType

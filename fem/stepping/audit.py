@@ -4,8 +4,6 @@ Forces are integrated over the steps by the trapezoidal rule, so that the audit'
 second order; what backward Euler dissipates numerically (in snaps) shows up as an error.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Error of a balance, for energy and for heat."""
 
-from __future__ import annotations
-
 
 def balance_error(put_in: float, *found: float, created: float = 0.0) -> float:
     """What a balance misses, and what was made of nothing, over what was turned over [-].

@@ -5,8 +5,6 @@ faster or slower by a factor of two or so. What the estimate is for is to tell a
 and to refuse what would never end or never fit.
 """
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass
 

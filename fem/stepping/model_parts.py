@@ -1,7 +1,5 @@
 """What deformable and rigid runs have in common: the mesh of a case and the report of progress."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -93,9 +91,11 @@ def _grading(block: Block) -> Grading:
     if isinstance(spec, str):
         return NAMED_GRADINGS[spec]
     return Grading(
-        cells_x=spec.cells_x, cells_y=spec.cells_y,
-        smallest_x=spec.smallest_x_mm, smallest_y=spec.smallest_y_mm,
-    )  # fmt: skip
+        cells_x=spec.cells_x,
+        cells_y=spec.cells_y,
+        smallest_x=spec.smallest_x_mm,
+        smallest_y=spec.smallest_y_mm,
+    )
 
 
 def _shape(block: Block) -> TreadShape:
@@ -113,6 +113,9 @@ def _shape(block: Block) -> TreadShape:
 def _slot(sipe: Sipe) -> Slot:
     angle = np.radians(sipe.angle_deg)
     return Slot(
-        at=sipe.position_mm, width=float(sipe.width_mm / np.cos(angle)), depth=sipe.depth_mm,
-        slope=float(np.tan(angle)), rounded=sipe.base == "round",
-    )  # fmt: skip
+        at=sipe.position_mm,
+        width=float(sipe.width_mm / np.cos(angle)),
+        depth=sipe.depth_mm,
+        slope=float(np.tan(angle)),
+        rounded=sipe.base == "round",
+    )

@@ -1,7 +1,5 @@
 """An accepted step and where in the event it ended."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Protocol
 

@@ -1,7 +1,5 @@
 """What of the results belongs to which of several blocks on one platen."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where a run stands between two steps, and the tables it has collected so far."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

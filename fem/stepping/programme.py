@@ -1,7 +1,5 @@
 """The phases that a case asks for, in order."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import ceil
 from typing import Any
@@ -102,10 +100,16 @@ class _Builder:
         longest = LONGEST_PART * self.scale
         self.phases.append(
             Press(
-                time=phase.time_s, force=self.force, force_before=before, touches_down=comes_down,
-                step_initial=longest, step_max=longest, step_min=SHORTEST_PART, **self._common(),
+                time=phase.time_s,
+                force=self.force,
+                force_before=before,
+                touches_down=comes_down,
+                step_initial=longest,
+                step_max=longest,
+                step_min=SHORTEST_PART,
+                **self._common(),
             )
-        )  # fmt: skip
+        )
 
     def _slide(self, phase: loading.Slide) -> None:
         speed, sense = abs(phase.velocity_mm_per_s), float(np.sign(phase.velocity_mm_per_s))
@@ -121,10 +125,16 @@ class _Builder:
             return
         self.phases.append(
             Slide(
-                end=distance, speed=speed, sense=sense, force=self.force, start=start,
-                acceleration_distance=ramp, **self._steps(distance), **self._common(),
+                end=distance,
+                speed=speed,
+                sense=sense,
+                force=self.force,
+                start=start,
+                acceleration_distance=ramp,
+                **self._steps(distance),
+                **self._common(),
             )
-        )  # fmt: skip
+        )
 
     def _steps(self, distance: float) -> dict[str, Any]:
         """Steps of a slide; of a rigid block equal ones of the heat's length."""
@@ -144,10 +154,13 @@ class _Builder:
         self.velocity = 0.0
         self.phases.append(
             Hold(
-                end=duration, force=self.force, touches_down=touches_down,
-                **self._steps_at_rest(duration), **self._common(),
+                end=duration,
+                force=self.force,
+                touches_down=touches_down,
+                **self._steps_at_rest(duration),
+                **self._common(),
             )
-        )  # fmt: skip
+        )
 
     def _steps_at_rest(self, duration: float) -> dict[str, Any]:
         first = min(FIRST_REST, 0.1 * duration) * self.scale
@@ -163,11 +176,20 @@ class _Builder:
         first = path if self.rigid else solver.step_mm_initial
         duration = end - start
         follow = Follow(
-            signal=signal, since=start, end=duration, length=self.case.block.pressed_length_mm,
-            path_max=scale * path, path_initial=scale * first, onset_share=scale * ONSET_SHARE,
-            pressure_max=scale * LONGEST_PART * float(signal.p.max()), touches_down=comes_down,
-            step_initial=duration, step_max=duration, step_min=1e-7 * duration, **self._common(),
-        )  # fmt: skip
+            signal=signal,
+            since=start,
+            end=duration,
+            length=self.case.block.pressed_length_mm,
+            path_max=scale * path,
+            path_initial=scale * first,
+            onset_share=scale * ONSET_SHARE,
+            pressure_max=scale * LONGEST_PART * float(signal.p.max()),
+            touches_down=comes_down,
+            step_initial=duration,
+            step_max=duration,
+            step_min=1e-7 * duration,
+            **self._common(),
+        )
         self.phases.append(replace(follow, step_initial=follow.longest(0.0)))
 
     def _air(self, time: float) -> None:
@@ -184,11 +206,14 @@ class _Builder:
             time = min(LIFTING_TIME, LIFTING_SHARE * rest)
             self.phases.append(
                 LiftOff(
-                    time=time, rise=LIFTING_HEIGHT * self.case.block.height_mm,
-                    step_initial=FIRST_LIFT * self.scale, step_max=LONGEST_LIFT * self.scale,
-                    step_min=SHORTEST_PART, **common,
+                    time=time,
+                    rise=LIFTING_HEIGHT * self.case.block.height_mm,
+                    step_initial=FIRST_LIFT * self.scale,
+                    step_max=LONGEST_LIFT * self.scale,
+                    step_min=SHORTEST_PART,
+                    **common,
                 )
-            )  # fmt: skip
+            )
             rest -= time
         self.phases.append(Rest(end=rest, **self._steps_at_rest(rest), **common))
 

@@ -1,7 +1,5 @@
 """Contact of the block's candidates with the road at the end of a step."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

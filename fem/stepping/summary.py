@@ -1,7 +1,5 @@
 """Scalars of a run from its history: values at the end, largest values, means over the slide."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 

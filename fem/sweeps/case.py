@@ -5,8 +5,6 @@ is written last, so a worker may be killed at any moment. Meanwhile the folder h
 from which another worker or a resumed sweep goes on, to the same result.
 """
 
-from __future__ import annotations
-
 import threading
 import time
 import traceback

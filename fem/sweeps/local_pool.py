@@ -5,8 +5,6 @@ other process has. It never looks at the caller's program, so that a script with
 notebook, standard input or a thread may start one. It leaves as soon as its parent is gone.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Runs of many cases: read where they are finished, simulated side by side where they are not."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -6,8 +6,6 @@ table ``[grid]`` of dotted case keys to lists (the full product is run) and opti
 give short names to long keys for the folders.
 """
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import json

@@ -1,7 +1,5 @@
 """Sweeps: all cases of a study, in parallel, one row per case, resumable after any interruption."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -112,9 +110,13 @@ def sweep(
         directory, files=(SUMMARY_CSV, TIMINGS_CSV), folders=[RUNS_FOLDER]
     ) as folder:
         how = _Execution(
-            directory=folder.absolute(), workers=workers, scheduler=scheduler, resume=resume,
-            progress=progress, draw=draw,
-        )  # fmt: skip
+            directory=folder.absolute(),
+            workers=workers,
+            scheduler=scheduler,
+            resume=resume,
+            progress=progress,
+            draw=draw,
+        )
         return _sweep(cases, how)
 
 

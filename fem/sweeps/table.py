@@ -1,7 +1,5 @@
 """The table of a sweep: a row per finished case, always in the order of the study."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

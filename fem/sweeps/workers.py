@@ -1,7 +1,5 @@
 """Who executes the cases of a sweep: this process, local worker processes, or a cluster."""
 
-from __future__ import annotations
-
 import importlib.util
 import logging
 import os

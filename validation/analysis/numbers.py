@@ -1,7 +1,5 @@
 """Ranges, orders and correlations of numbers from several runs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 
 import numpy as np

@@ -6,8 +6,6 @@ References
    applications".
 """
 
-from __future__ import annotations
-
 #: Table 4 [kN]; its plane model has 1 m of depth, so the numbers are also N per mm.
 PAPER_N_PER_MM = {
     "van-der-waals-bars-series-1": 4.56,

@@ -1,7 +1,5 @@
 """What the rubber models do in homogeneous tests, as far as the claims ask."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from materials.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Quantities of a run's last state that say how the block is deformed and stressed."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Quantities of a run's last state that say where the block is warm."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

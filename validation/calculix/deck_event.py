@@ -1,7 +1,5 @@
 """What an input deck does to the block over its time: amplitudes, loads, and what is printed."""
 
-from __future__ import annotations
-
 from fem.case import Case
 from fem.mesh import BlockMesh
 from validation.calculix.deck_material import numbers

@@ -12,8 +12,6 @@ References
 .. [2] Dhondt, G., CalculiX CrunchiX User's Manual, version 2.20, "Hyperelastic materials".
 """
 
-from __future__ import annotations
-
 from fem.case import Case, CaseError
 from materials.hyperelastic import Hyperelastic, MooneyRivlin, NeoHooke, Yeoh
 from materials.ogden import Ogden
@@ -31,9 +29,11 @@ def hyperelastic_card(case: Case) -> list[str]:
     for key in ("viscoelastic", "mullins"):
         if getattr(case.rubber, key) is not None:
             raise CaseError(
-                file=case.source, key=f"rubber.{key}", found="rubber that remembers",
+                file=case.source,
+                key=f"rubber.{key}",
+                found="rubber that remembers",
                 expected="an elastic rubber: the deck has no such material",
-            )  # fmt: skip
+            )
     if isinstance(model, NeoHooke):
         return ["*HYPERELASTIC, NEO HOOKE", numbers(0.5 * model.G, D1)]
     if isinstance(model, MooneyRivlin):

@@ -5,8 +5,6 @@ behind, so that forces are per mm of depth. The back layer moves with the front 
 moves along z: plane strain with the unknowns of a plane problem.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem.mesh import BlockMesh

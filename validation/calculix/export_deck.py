@@ -18,8 +18,6 @@ Bricks and contact were chosen by measurement (version 2.20, tread block of the 
   contact it sinks 1.5 to 2 % deeper from the first slip on, and comes back at the end of the slide.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal

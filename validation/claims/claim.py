@@ -1,7 +1,5 @@
 """A statement of the paper, and what our numbers say about it."""
 
-from __future__ import annotations
-
 import copy
 import math
 import operator

@@ -1,7 +1,5 @@
 """What the claims are judged by: runs, gathered when first asked for, and the laws themselves."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path

@@ -1,7 +1,5 @@
 """All claims in the order of the paper, and the table of what came out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """Templates of `statements.toml` filled in: numbers, per cent, tables, texts within texts."""
 
-from __future__ import annotations
-
 import string
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -4,8 +4,6 @@ A function has the key of its statement in `statements.toml` and returns the num
 and what else comparisons and texts name.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from validation.analysis import shape, warmth

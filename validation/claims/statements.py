@@ -1,7 +1,5 @@
 """What stands in `statements.toml`, and the limits it names."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 from typing import Any

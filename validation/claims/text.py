@@ -1,7 +1,5 @@
 """The ledger for a terminal: what differs first told in full, every row wrapped."""
 
-from __future__ import annotations
-
 import textwrap
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """Checks all claims with the runs of a folder and writes the ledger there."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from fem.files import write_table, write_text

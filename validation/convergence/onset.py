@@ -1,7 +1,5 @@
 """The onset of sliding in a few numbers: force at some distances, sinking of the pressed platen."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

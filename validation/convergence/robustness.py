@@ -4,8 +4,6 @@
 columns that tell how each case went, four digits each, and writes ``validation/robustness.csv``.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The committed tables of the studies to the limit: a row per run, four to five digits each."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +44,7 @@ _DIGITS = 5
 
 def convergence_table(runs: list[SweptRun]) -> pd.DataFrame:
     """What was varied of the introductory example, and what came out."""
-    return _rounded([
+    rows = [
         {
             "mesh": run.study_case.case.block.mesh,
             "damping": _damping(run.study_case.case.solver),
@@ -55,12 +53,13 @@ def convergence_table(runs: list[SweptRun]) -> pd.DataFrame:
             **_results(run),
         }
         for run in runs
-    ])  # fmt: skip
+    ]
+    return _rounded(rows)
 
 
 def onset_table(runs: list[SweptRun]) -> pd.DataFrame:
     """The onset of each case in each of its numerics, with the force of full slip."""
-    return _rounded([
+    rows = [
         {
             "compound": run.study_case.case.rubber.compound,
             "law": run.study_case.case.friction.law,
@@ -73,7 +72,8 @@ def onset_table(runs: list[SweptRun]) -> pd.DataFrame:
             **_results(run),
         }
         for run in runs
-    ])  # fmt: skip
+    ]
+    return _rounded(rows)
 
 
 def _results(run: SweptRun) -> dict[str, Any]:

@@ -1,7 +1,5 @@
 """The studies to the limit in Markdown, from their committed tables."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterable
 

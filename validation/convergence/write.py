@@ -5,8 +5,6 @@
 without folders it renews the block from the tables that are there.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

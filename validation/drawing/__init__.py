@@ -1,7 +1,5 @@
 """How results are drawn: style, fields on the block, curves of a run."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 #: The picture of a run that is drawn last.

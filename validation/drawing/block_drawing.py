@@ -1,7 +1,5 @@
 """Drawing the block: cells coloured by a field, mesh lines, the road, outlines; 1:1 always."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How the parameter sets of Table 1 are written in figures and tables, and drawn."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Panels of one snapshot: deformed mesh, temperature, vertical stress, whole block or a detail."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

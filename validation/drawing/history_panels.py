@@ -1,7 +1,5 @@
 """Panels over the sliding distance and along the bottom surface, drawn from result tables."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """The onset of sliding: force, stick and slip, and pressure over the platen's motion."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -80,9 +78,13 @@ def _draw_status(
 ) -> None:
     colours = ListedColormap(list(STATUS_COLOURS.values()))
     axes.pcolormesh(
-        motion, _edges_of_nodes(bottom.X_mm), bottom.kind[steps].T, cmap=colours, vmin=-0.5,
+        motion,
+        _edges_of_nodes(bottom.X_mm),
+        bottom.kind[steps].T,
+        cmap=colours,
+        vmin=-0.5,
         vmax=2.5,
-    )  # fmt: skip
+    )
     axes.set_ylabel("$X$ [mm]")
     axes.set_title("Status along the bottom (0: trailing corner)")
     handles = [

@@ -1,7 +1,5 @@
 """The pictures of one run: history, bottom surface, onset of sliding, final state."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

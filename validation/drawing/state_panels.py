@@ -1,7 +1,5 @@
 """Mesh, temperature and stress of a result's last state, each with its front edge."""
 
-from __future__ import annotations
-
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 

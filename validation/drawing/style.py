@@ -3,8 +3,6 @@
 Figures are drawn on matplotlib's Agg canvas directly, without pyplot: no window, no global state.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path

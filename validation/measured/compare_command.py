@@ -1,7 +1,5 @@
 """The comparison of a file of measurements with a folder of results, as files and as text."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

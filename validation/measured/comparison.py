@@ -1,7 +1,5 @@
 """Measurements against simulations: which belong together, and how far they are apart."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Pictures of a comparison: measured against simulated values, and the temperature profiles."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

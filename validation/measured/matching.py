@@ -1,7 +1,5 @@
 """Which simulations belong to which measured tests: the same conditions, nearest in pressure."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Measured points and profiles in the figures of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -10,8 +10,6 @@ pressure), ``mean_pressure_N_per_mm2`` (on top of the block), ``v_mm_per_s``, ``
 and ``T_0_C``, the temperature before the sliding.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 

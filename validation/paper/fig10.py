@@ -1,7 +1,5 @@
 """Figure 10: temperature of the bottom surface for the six parameter sets."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """Figure 11: temperature of the bottom surface at three velocities, both friction laws."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """Figure 12: T_max and A_T over contact pressure, velocity, friction law and compound."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """Figure 2: cyclic test of a dumbbell and the parameter sets of Table 1."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

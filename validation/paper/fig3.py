@@ -1,7 +1,5 @@
 """Figure 3: cyclic tests of bars, series 1 and 2, and the parameter sets of Table 1."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """Figure 4: friction coefficient over sliding velocity and contact pressure, both laws."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figure 6: rig of the static conductance test and its thermocouple curves."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

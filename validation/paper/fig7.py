@@ -1,7 +1,5 @@
 """Figure 7: cross-section of the block, boundary conditions and finite-element mesh."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

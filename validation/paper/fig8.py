@@ -1,7 +1,5 @@
 """Figure 8: state of the block at the end of the introductory example, and how it got there."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """Figure 9: vertical normal stress on the deformed block for the six parameter sets."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The paper's introductory example (section 4.2) and where its run lies."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from fem.case import Case

@@ -6,8 +6,6 @@ packages, and files that the user named. As long as all that is the same and the
 untouched, they stay.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re

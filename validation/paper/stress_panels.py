@@ -1,7 +1,5 @@
 """Panels of stress-strain tests: the cycles, the one that is used, and the parameter sets."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

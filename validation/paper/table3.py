@@ -1,7 +1,5 @@
 """Table 3: thermo-mechanical parameters of rubber and asphalt, as a case file has them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd
@@ -14,11 +12,19 @@ _ROWS = (
     ("d1", "-", ("friction", "d1"), None),
     ("d2", "K", ("friction", "d2_K"), None),
     ("density", "kg/m^3", ("rubber", "density_kg_per_m3"), ("road", "density_kg_per_m3")),
-    ("conductivity", "W/(m K)", ("rubber", "conductivity_W_per_mK"),
-     ("road", "conductivity_W_per_mK")),
-    ("specific heat", "kJ/(kg K)", ("rubber", "specific_heat_kJ_per_kgK"),
-     ("road", "specific_heat_kJ_per_kgK")),
-)  # fmt: skip
+    (
+        "conductivity",
+        "W/(m K)",
+        ("rubber", "conductivity_W_per_mK"),
+        ("road", "conductivity_W_per_mK"),
+    ),
+    (
+        "specific heat",
+        "kJ/(kg K)",
+        ("rubber", "specific_heat_kJ_per_kgK"),
+        ("road", "specific_heat_kJ_per_kgK"),
+    ),
+)
 
 
 def make(directory: Path) -> Path:

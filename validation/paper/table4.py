@@ -1,7 +1,5 @@
 """Table 4: mean friction force in the slip phase for the six parameter sets."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

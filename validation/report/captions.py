@@ -1,7 +1,5 @@
 """What the report says under the figures and above the tables of the paper."""
 
-from __future__ import annotations
-
 _SYNTHETIC = "The paper's measurements are not published: the test shown is synthetic, made from "
 
 #: By the number of the figure.

@@ -1,7 +1,5 @@
 """The introductory example in the report: its results, its picture, and who computed it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

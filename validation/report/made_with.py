@@ -1,7 +1,5 @@
 """Which program made the report (versions, commit, date), and which ones its runs."""
 
-from __future__ import annotations
-
 import platform
 import subprocess
 from collections import Counter

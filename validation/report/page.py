@@ -1,7 +1,5 @@
 """Everything the page shows, and the page as HTML."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The parts of a report as they lie in a folder of figures, and those that are missing."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What is varied, what it is called, and why over this range: `parameters.toml`."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The table of a one-at-a-time study: what was changed, what came out, how far from the base."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The sensitivity study in words and numbers, for a terminal or a mail."""
 
-from __future__ import annotations
-
 import textwrap
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """The tornado plot: what moves T_max, A_T and the friction force, the strongest first."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Runs the sensitivity study, or reads its runs, and writes table, picture and text."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from fem.files import write_table, write_text

@@ -1,7 +1,5 @@
 """Study files of the paper's figures and tables."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from fem.sweeps.study import StudyCase, read_study

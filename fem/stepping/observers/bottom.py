@@ -1,7 +1,5 @@
 """Keeps stick, slip and pressure along the bottom at every accepted step."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem.mesh.block import BlockMesh

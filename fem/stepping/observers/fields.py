@@ -1,7 +1,5 @@
 """Takes the field snapshots of a run."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem.case.case import Case

@@ -1,7 +1,5 @@
 """The history of a run, a row per accepted step, and the table of its boundary."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -119,10 +117,12 @@ class HistoryRecorder:
             state.mechanics.u,
             state.heat.T,
             BoundaryContact(
-                kind=contact.status.kind, pressure=contact.pressure, shear=shear,
+                kind=contact.status.kind,
+                pressure=contact.pressure,
+                shear=shear,
                 slip_velocity=contact.slip_velocity,
             ),
-        )  # fmt: skip
+        )
         table = table.assign(self_contact_pressure_N_per_mm2=self._self_pressure(state))
         if self.wear.law.coefficient == 0.0:
             return table

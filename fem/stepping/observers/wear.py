@@ -1,7 +1,5 @@
 """Adds up what wears off the block's surface."""
 
-from __future__ import annotations
-
 from fem.case.case import Case
 from fem.mesh.block import BlockMesh
 from fem.stepping.moment import Moment
