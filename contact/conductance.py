@@ -70,19 +70,6 @@ class GapConductance:
         return (1.0 + np.abs(np.asarray(v, dtype=float)) / self.v_ref) ** self.modulus_exponent
 
 
-def harmonic_mean_conductivity(k1: float, k2: float) -> float:
-    """Mean conductivity of two solids, eq. (12): ``1/kbar = (1/k1 + 1/k2)/2`` [W/(m K)]."""
-    require_positive(k1=k1, k2=k2)
-    return 2.0 * k1 * k2 / (k1 + k2)
-
-
-def effective_modulus(E1: float, nu1: float, E2: float, nu2: float) -> float:
-    """Effective modulus of two solids, eq. (13) [unit of E1 and E2]."""
-    require_positive(E1=E1, E2=E2)
-    require_finite(nu1=nu1, nu2=nu2)
-    return E1 * E2 / (E2 * (1.0 - nu1**2) + E1 * (1.0 - nu2**2))
-
-
 @dataclass(frozen=True, kw_only=True)
 class ContactSurface:
     """What eq. (11) needs to know of the two solids and their sum surface.
@@ -90,9 +77,9 @@ class ContactSurface:
     Parameters
     ----------
     mean_conductivity_W_per_mK : float
-        Harmonic mean conductivity kbar, eq. (12).
+        Harmonic mean conductivity kbar, eq. (12): ``1/kbar = (1/k1 + 1/k2)/2``.
     effective_modulus_N_per_mm2 : float
-        Effective modulus Ebar, eq. (13).
+        Effective modulus Ebar, eq. (13): ``1/Ebar = (1 - nu1^2)/E1 + (1 - nu2^2)/E2``.
     rms_roughness_um : float
         RMS roughness sigma of the sum surface [um].
     mean_slope : float

@@ -28,7 +28,6 @@ from materials.maxwell import (
     plane_stiffness,
     plane_stress,
 )
-from materials.plane_strain import deformation_of, stiffness_of, stress_of
 from materials.prony import Prony
 from materials.softening import OgdenRoxburgh
 
@@ -220,18 +219,6 @@ class PlaneStep:
         return StepEnd(
             stored=stored, state=state, viscous=viscous, damage=consumed, softening=softening
         )
-
-    def first_piola_kirchhoff(self, F: ArrayLike) -> FloatArray:
-        """Isochoric stress P [N/mm^2] at deformation gradients (..., 2, 2)."""
-        response = self.respond(deformation_of(F))
-        return stress_of(response.energy, F, response.S)
-
-    def dP_dF(self, F: ArrayLike) -> FloatArray:
-        """Consistent tangent of `first_piola_kirchhoff` [N/mm^2], (..., 2, 2, 2, 2)."""
-        deformation = deformation_of(F)
-        response = self.respond(deformation)
-        D = self.stiffness(deformation, response, slice(None))
-        return stiffness_of(response.energy, F, response.S, D)
 
     def _unsoftened(self, deformation: Deformation) -> EnergyDerivatives:
         energy = self.rubber.elastic.derivatives(deformation.I1, deformation.J)

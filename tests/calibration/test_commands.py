@@ -12,11 +12,12 @@ from calibration import commands
 from calibration.conductance.fit import synthetic_heating_record
 from calibration.conductance.heating_rig import HeatingRig
 from calibration.datasets import dataset_path
-from calibration.synthetic import synthetic_bar_cycles, synthetic_friction, synthetic_sweeps
+from calibration.synthetic import synthetic_bar_cycles, synthetic_friction
 from contact import HuemerFriction
 from fem import Case, simulate
 from fem.sweeps import case as sweep_case
 from materials import WLF
+from tests.calibration.made_up_sweeps import synthetic_sweeps
 from tests.calibration.memory import made_up_tests
 from tests.calibration.partition.made_up_slides import RIGID
 

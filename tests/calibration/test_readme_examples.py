@@ -42,7 +42,7 @@ def shift_factors():
 
 
 def sweeps():
-    from calibration.synthetic import synthetic_sweeps
+    from tests.calibration.made_up_sweeps import synthetic_sweeps
 
     return synthetic_sweeps(WLF(d1=17.0, d2_K=150.0), (0.0, 20.0, 40.0))
 

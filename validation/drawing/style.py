@@ -18,13 +18,13 @@ _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
 MM_PER_INCH = 25.4
-#: Width of a figure across a page and of one beside text [mm].
-PAGE_WIDTH, COLUMN_WIDTH = 180.0, 120.0
+#: Width of a figure across a page [mm].
+PAGE_WIDTH = 180.0
 RESOLUTION = 200
 
 #: Okabe and Ito's palette, which colour-blind readers can tell apart (Nature Methods 8 (2011) 441).
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
-YELLOW, BLUE, VERMILLION, PURPLE = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
+BLUE, VERMILLION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
 CURVES = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (3, 1)))
 MARKERS = ("o", "s", "^", "D", "v", "P")

@@ -1,8 +1,5 @@
 """Which simulations belong to which measured tests: the same conditions, nearest in pressure."""
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
@@ -23,16 +20,12 @@ _WORDS = ("compound", "law")
 _BATCH = 20_000
 
 
-def matching(point: Mapping[str, Any], runs: pd.DataFrame) -> pd.DataFrame:
-    """Simulations of a measured test: of each variant the one nearest in contact pressure.
-
-    What the test does not state (empty or NaN) excludes nothing.
-    """
-    return runs.iloc[matched(pd.DataFrame([point]), runs)[1]]
-
-
 def matched(points: pd.DataFrame, runs: pd.DataFrame) -> tuple[IntArray, IntArray]:
-    """Positions of the tests (k,) and of their simulations (k,), test by test."""
+    """Positions of the tests (k,) and of their simulations (k,), test by test.
+
+    Of each variant it is the simulation nearest in contact pressure. What a test does not state
+    (empty or NaN) excludes nothing.
+    """
     tests, found = [np.empty(0, dtype=np.intp)], [np.empty(0, dtype=np.intp)]
     for first in range(0, len(points), _BATCH):
         test, run = np.nonzero(_fitting(points.iloc[first : first + _BATCH], runs))

@@ -16,13 +16,13 @@ from calibration.synthetic import (
     synthetic_bar_cycles,
     synthetic_friction,
     synthetic_stress,
-    synthetic_sweeps,
 )
 from contact import HuemerFriction
 from fem.case.case import Case
 from fem.case.friction import Friction
 from fem.case.rubber import CONSTANTS
 from materials import WLF, compound
+from tests.calibration.made_up_sweeps import synthetic_sweeps
 
 LOADING = """
 [loading]

@@ -11,7 +11,7 @@ from skfem.helpers import ddot
 
 from fem.mechanics.elements import NO_PAST, Past, Q1P0Elements, Viscosity, area_gradient
 from materials import NeoHooke, Yeoh, compound
-from materials.plane_strain import cauchy_stress, dP_dF, first_piola_kirchhoff
+from materials.plane_strain import cauchy_stress
 from tests.fem.small_blocks import (
     boundary_nodes,
     consistent_pressure,
@@ -26,6 +26,7 @@ from tests.fem.small_blocks import (
 )
 from tests.materials.models import MODELS
 from tests.reference_solutions.homogeneous import plane_strain_stress
+from tests.reference_solutions.plane_strain import dP_dF, first_piola_kirchhoff
 
 YEOH = compound("yeoh-bars-series-1-load")
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import matplotlib
 
-from validation.drawing.style import COLUMN_WIDTH, MM_PER_INCH, RESOLUTION, new_figure, save, styled
+from validation.drawing.style import MM_PER_INCH, RESOLUTION, new_figure, save, styled
+
+COLUMN_WIDTH = 120.0
 
 
 @styled

@@ -20,7 +20,7 @@ from tests.validation.made_up_run import made_up_run
 from validation.measured.compare_command import write_comparison
 from validation.measured.comparison import compare, simulated_runs, statistics
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
-from validation.measured.matching import matched, matching
+from validation.measured.matching import matched
 from validation.measured.measurements import read_measurements
 from validation.paper import fig11, fig12
 
@@ -56,6 +56,11 @@ def point(**changes: object) -> dict[str, object]:
 
 
 # -- matching --------------------------------------------------------------------------------------
+
+
+def matching(test, runs):
+    """The simulations that belong to one test."""
+    return runs.iloc[matched(pd.DataFrame([test]), runs)[1]]
 
 
 def test_simulation_nearest_in_contact_pressure_is_taken_of_each_variant():
