@@ -3,7 +3,7 @@
 import argparse
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
@@ -37,6 +37,8 @@ from materials.units import ABSOLUTE_ZERO_C
 from materials.wlf import WLF
 
 CONSTANTS = WLF()
+#: Arguments that are no options of a fit.
+_GENERAL = ("command", "kind", "data", "output", "quiet", "accept_unusual")
 
 
 def add_arguments(commands: Any) -> None:
@@ -47,7 +49,7 @@ def add_arguments(commands: Any) -> None:
         description="Fit parameters to measurements and write a parameter file for a case.",
     )
     kinds = parser.add_subparsers(metavar="KIND", required=True, dest="kind")
-    for name, (add, description) in KINDS.items():
+    for name, (description, add, _) in KINDS.items():
         kind = kinds.add_parser(name, help=description, description=f"Fit {description}.")
         kind.add_argument("data", metavar="DATA.csv", help="measurements")
         kind.add_argument("-o", "--output", metavar="DIR", help="folder of the results")
@@ -57,19 +59,22 @@ def add_arguments(commands: Any) -> None:
             action="store_true",
             help="no warning of numbers outside their usual range (the result file keeps it)",
         )
-        add(kind)
+        add(kind.add_argument)
         kind.set_defaults(command=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run one calibration; bad data end with one line and exit code 2."""
-    directory = _folder(arguments)
+    default = Path("results") / "calibration" / arguments.kind
+    directory = chosen_output(arguments.output, default)
     with output_folder(directory, files=[PARAMETERS_FILE], folders=[SIMULATIONS_FOLDER]):
+        # The fit of the partition keeps and shows its simulations.
+        simulates = arguments.kind == "partition"
+        shown = {"directory": directory, "quiet": arguments.quiet} if simulates else {}
         try:
-            # The fit of the partition shows its simulations.
-            quiet = arguments.quiet or arguments.kind == "partition"
-            with watched(f"fit to {arguments.data}", quiet=quiet):
-                outcome: Outcome = arguments.calibrate(arguments)
+            with watched(f"fit to {arguments.data}", quiet=arguments.quiet or simulates):
+                _, _, calibrate = KINDS[arguments.kind]
+                outcome = calibrate(arguments.data, **_given(arguments), **shown)
         except ValueError as error:
             # DataError and CaseError say the file; other messages are about the options
             place = "" if isinstance(error, DataError | CaseError) else f"{arguments.data}: "
@@ -87,231 +92,126 @@ def run(arguments: argparse.Namespace) -> int:
     return DONE
 
 
-def _folder(arguments: argparse.Namespace) -> Path:
-    default = Path("results") / "calibration" / arguments.kind
-    return chosen_output(arguments.output, default)
+def _given(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The options that were given, under the names of the fits, which know the other defaults."""
+    given = {
+        name: value
+        for name, value in vars(arguments).items()
+        if value is not None and name not in _GENERAL
+    }
+    made = {"fixed": dict, "window": tuple}
+    return {name: made[name](value) if name in made else value for name, value in given.items()}
 
 
-def _add_hyperelastic(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--model", choices=STRESS_MODELS, default="yeoh")
-    parser.add_argument("--cycle", type=_cycle, help='"last-full", "all" or a number')
-    parser.add_argument("--branch", choices=("both", "load", "unload"), default="both")
-    parser.add_argument(
-        "--window", nargs=2, type=_finite, metavar=("LOW", "HIGH"), help="stretches used"
-    )
-    parser.add_argument("--mode", choices=MODES, action="append", help="may be repeated")
-    parser.add_argument(
+# -- options of each kind, stored under the names that the fits give them --------------------------
+
+
+def _add_hyperelastic(add: Callable[..., Any]) -> None:
+    add("--model", choices=STRESS_MODELS)
+    add("--cycle", type=_cycle, help='"last-full", "all" or a number')
+    add("--branch", choices=("both", "load", "unload"))
+    add("--window", nargs=2, type=_finite, metavar=("LOW", "HIGH"), help="stretches used")
+    add("--mode", choices=MODES, action="append", dest="modes", help="may be repeated")
+    add(
         "--zero",
         choices=get_args(Zero),
-        default="none",
         help="subtract the stress of the first row (preload), or refer the test to the length at "
         "which the loop comes back to zero stress (permanent set)",
     )
-    parser.add_argument("--weights", choices=("equal", "modes", "relative"), default="equal")
-    _add_common(parser, "N/mm^2")
-
-    def calibrate(arguments: argparse.Namespace) -> Outcome:
-        return calibrate_hyperelastic(
-            arguments.data,
-            model=arguments.model,
-            cycle=arguments.cycle,
-            branch=arguments.branch,
-            window=None if arguments.window is None else tuple(arguments.window),
-            modes=arguments.mode,
-            zero=arguments.zero,
-            weights=arguments.weights,
-            noise_N_per_mm2=0.05 if arguments.noise is None else arguments.noise,
-            **_common(arguments),
-        )
-
-    parser.set_defaults(calibrate=calibrate)
+    add("--weights", choices=("equal", "modes", "relative"))
+    _add_comparing(add, "N/mm^2", "noise_N_per_mm2")
 
 
-def _add_viscoelastic(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--model", choices=STRESS_MODELS, help="elastic law of histories (yeoh)")
-    parser.add_argument(
-        "--branches", type=_count, metavar="N", help="number (default: as few as the data support)"
-    )
-    _add_histories(parser)
-    parser.add_argument("--weights", choices=("equal", "tests"), help="rows or tests alike")
-    parser.add_argument("--C1", type=_positive, help="WLF constant for histories with T_C")
-    parser.add_argument("--C2", type=_positive, metavar="K", help="the other one")
-    parser.add_argument(
-        "--T-ref",
-        type=_celsius,
-        metavar="C",
-        dest="T_ref_C",
-        help="temperature of the relaxation times (default: 20, or the sweep in the middle)",
-    )
-    _add_shifting(parser, vertical=None, expansion=None)
-    _add_robust(parser, "N/mm^2, of sweeps relative")
-
-    def calibrate(arguments: argparse.Namespace) -> Outcome:
-        if (arguments.C1 is None) != (arguments.C2 is None):
-            raise ValueError("one of --C1 and --C2 is missing; expected both or neither")
-        shift = None if arguments.C1 is None else WLF(d1=arguments.C1, d2_K=arguments.C2)
-        return calibrate_viscoelastic(
-            arguments.data,
-            intervals=arguments.intervals,
-            loss=arguments.loss,
-            **_given(
-                model=arguments.model,
-                branches=arguments.branches,
-                weights=arguments.weights,
-                shift=shift,
-                T_ref_C=arguments.T_ref_C,
-                vertical=arguments.vertical,
-                expansion_per_K=arguments.expansion,
-                T_tolerance_K=arguments.T_tolerance_K,
-                noise=arguments.noise,
-                **_histories(arguments),
-            ),
-        )
-
-    parser.set_defaults(calibrate=calibrate)
+def _add_viscoelastic(add: Callable[..., Any]) -> None:
+    add("--model", choices=STRESS_MODELS, help="elastic law of histories (yeoh)")
+    add("--branches", type=_count, metavar="N", help="number (default: as few as the data support)")
+    _add_histories(add)
+    add("--weights", choices=("equal", "tests"), help="rows or tests alike")
+    add("--C1", type=_positive, help="WLF constant for histories with T_C")
+    add("--C2", type=_positive, metavar="K", help="the other one")
+    _add_T_ref(add, "of the relaxation times (default: 20, or the sweep in the middle)")
+    _add_shifting(add)
+    _add_robust(add, "N/mm^2, of sweeps relative")
 
 
-def _add_mullins(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--model", choices=STRESS_MODELS, default="yeoh")
-    _add_histories(parser)
-    _add_robust(parser, "N/mm^2")
-
-    def calibrate(arguments: argparse.Namespace) -> Outcome:
-        return calibrate_mullins(
-            arguments.data,
-            model=arguments.model,
-            intervals=arguments.intervals,
-            loss=arguments.loss,
-            **_given(noise_N_per_mm2=arguments.noise, **_histories(arguments)),
-        )
-
-    parser.set_defaults(calibrate=calibrate)
+def _viscoelastic(
+    path: str, *, C1: float | None = None, C2: float | None = None, **options: Any
+) -> Outcome:
+    if (C1 is None) != (C2 is None):
+        raise ValueError("one of --C1 and --C2 is missing; expected both or neither")
+    if C1 is not None and C2 is not None:
+        options["shift"] = WLF(d1=C1, d2_K=C2)
+    return calibrate_viscoelastic(path, **options)
 
 
-def _add_histories(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--mode", choices=MODES, help="of a table without that column (uniaxial)")
-    parser.add_argument(
-        "--from-cycle",
-        type=_count,
-        metavar="N",
-        help="rows of earlier cycles load the rubber and are not compared",
-    )
-    parser.add_argument(
-        "--fix", metavar="NAME=VALUE", type=_fixed, action="append", help="hold a parameter"
-    )
+def _add_mullins(add: Callable[..., Any]) -> None:
+    add("--model", choices=STRESS_MODELS)
+    _add_histories(add)
+    _add_robust(add, "N/mm^2", "noise_N_per_mm2")
 
 
-def _histories(arguments: argparse.Namespace) -> dict[str, Any]:
-    fixed = None if arguments.fix is None else dict(arguments.fix)
-    return {"mode": arguments.mode, "from_cycle": arguments.from_cycle, "fixed": fixed}
+def _add_histories(add: Callable[..., Any]) -> None:
+    add("--mode", choices=MODES, help="of a table without that column (uniaxial)")
+    text = "rows of earlier cycles load the rubber and are not compared"
+    add("--from-cycle", type=_count, metavar="N", help=text)
+    _add_fix(add)
 
 
-def _given(**options: Any) -> dict[str, Any]:
-    """Options that were given; the fits know the defaults of the others."""
-    return {name: value for name, value in options.items() if value is not None}
-
-
-def _add_friction(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--law", choices=forms(), default="huemer")
-    parser.add_argument(
-        "--wlf",
-        choices=("none", "given", "fit"),
-        default="none",
-        help="shift of the speed by T_C: none, with --d1 and --d2, or fitted together",
-    )
-    parser.add_argument("--d1", type=_positive, default=CONSTANTS.d1)
-    parser.add_argument("--d2", type=_positive, default=CONSTANTS.d2_K, metavar="K")
-    parser.add_argument(
-        "--T-ref",
-        type=_celsius,
-        default=20.0,
-        metavar="C",
-        dest="T_ref_C",
-        help="temperature of the fitted law (default %(default)g)",
-    )
-    parser.add_argument(
+def _add_friction(add: Callable[..., Any]) -> None:
+    add("--law", choices=forms())
+    text = "shift of the speed by T_C: none, with --d1 and --d2, or fitted together"
+    add("--wlf", choices=("none", "given", "fit"), help=text)
+    add("--d1", type=_positive, default=CONSTANTS.d1)
+    add("--d2", type=_positive, default=CONSTANTS.d2_K, metavar="K")
+    _add_T_ref(add, "of the fitted law (default %(default)g)", default=20.0)
+    add(
         "--wlf-T-ref",
         type=_celsius,
         metavar="C",
         dest="wlf_T_ref_C",
         help="temperature --d1 and --d2 refer to; they are rebased to --T-ref (default: the same)",
     )
-    _add_common(parser, "of mu")
-
-    def calibrate(arguments: argparse.Namespace) -> Outcome:
-        shift = {"none": lambda: None, "given": lambda: _wlf(arguments), "fit": lambda: "fit"}
-        return calibrate_friction(
-            arguments.data,
-            law=arguments.law,
-            wlf=shift[arguments.wlf](),
-            T_ref_C=arguments.T_ref_C,
-            noise=0.05 if arguments.noise is None else arguments.noise,
-            **_common(arguments),
-        )
-
-    parser.set_defaults(calibrate=calibrate)
+    _add_comparing(add, "of mu")
 
 
-def _wlf(arguments: argparse.Namespace) -> WLF:
-    given = WLF(d1=arguments.d1, d2_K=arguments.d2)
-    if arguments.wlf_T_ref_C is None:
-        return given
-    return given.rebased(arguments.wlf_T_ref_C, arguments.T_ref_C)
+def _friction(
+    path: str,
+    *,
+    d1: float,
+    d2: float,
+    T_ref_C: float,
+    wlf: str = "none",
+    wlf_T_ref_C: float | None = None,
+    **options: Any,
+) -> Outcome:
+    def given() -> WLF:
+        constants = WLF(d1=d1, d2_K=d2)
+        return constants if wlf_T_ref_C is None else constants.rebased(wlf_T_ref_C, T_ref_C)
+
+    shift = given() if wlf == "given" else {"none": None, "fit": "fit"}[wlf]
+    return calibrate_friction(path, wlf=shift, T_ref_C=T_ref_C, **options)
 
 
-def _add_wlf(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--T-ref",
-        type=_celsius,
-        metavar="C",
-        dest="T_ref_C",
-        help="temperature the constants refer to",
-    )
-    parser.add_argument(
-        "--window",
-        nargs=2,
-        type=_finite,
-        metavar=("LOW", "HIGH"),
-        help="temperatures used [deg C]; what lies outside is named",
-    )
-    parser.add_argument(
-        "--other-sign",
-        action="store_true",
-        help="the table holds 1/a_T, which rises with temperature",
-    )
-    _add_shifting(parser, vertical="auto", expansion=0.0)
-
-    def calibrate(arguments: argparse.Namespace) -> Outcome:
-        return calibrate_wlf(
-            arguments.data,
-            T_ref_C=arguments.T_ref_C,
-            window=None if arguments.window is None else tuple(arguments.window),
-            other_sign=arguments.other_sign,
-            vertical=arguments.vertical,
-            expansion_per_K=arguments.expansion,
-            T_tolerance_K=arguments.T_tolerance_K,
-        )
-
-    parser.set_defaults(calibrate=calibrate)
+def _add_wlf(add: Callable[..., Any]) -> None:
+    _add_T_ref(add, "the constants refer to")
+    text = "temperatures used [deg C]; what lies outside is named"
+    add("--window", nargs=2, type=_finite, metavar=("LOW", "HIGH"), help=text)
+    text = "the table holds 1/a_T, which rises with temperature"
+    add("--other-sign", action="store_true", help=text)
+    _add_shifting(add)
 
 
-def _add_shifting(
-    parser: argparse.ArgumentParser, *, vertical: str | None, expansion: float | None
-) -> None:
-    parser.add_argument(
-        "--vertical",
-        choices=get_args(Vertical),
-        default=vertical,
-        help="vertical shift T rho/(T_0 rho_0) of the moduli, none, or the better of the two",
-    )
-    parser.add_argument(
+def _add_shifting(add: Callable[..., Any]) -> None:
+    text = "vertical shift T rho/(T_0 rho_0) of the moduli, none, or the better of the two"
+    add("--vertical", choices=get_args(Vertical), help=text)
+    add(
         "--expansion",
         type=_not_negative,
-        default=expansion,
         metavar="PER_K",
+        dest="expansion_per_K",
         help="thermal expansion of the volume, for rho/rho_0 (default: rho stays)",
     )
-    parser.add_argument(
+    add(
         "--T-tolerance",
         type=_not_negative,
         metavar="K",
@@ -320,106 +220,56 @@ def _add_shifting(
     )
 
 
-def _add_conductance(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--rig", metavar="RIG.toml", help="dimensions of the rig and its parts")
-    parser.add_argument(
-        "--also", choices=ALSO, action="append", default=[], help="heat losses to fit as well"
-    )
-    parser.set_defaults(
-        calibrate=lambda arguments: calibrate_conductance(
-            arguments.data, rig_file=arguments.rig, also=arguments.also
-        )
-    )
+def _add_conductance(add: Callable[..., Any]) -> None:
+    text = "dimensions of the rig and its parts"
+    add("--rig", metavar="RIG.toml", dest="rig_file", help=text)
+    add("--also", choices=ALSO, action="append", help="heat losses to fit as well")
 
 
-def _add_partition(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--case",
-        metavar="CASE.toml",
-        required=True,
-        help="the block that slid; pressure and velocity come from the data",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="section.key=value",
-        action="append",
-        default=[],
-        dest="overrides",
-        help="set a key of the case; may be repeated",
-    )
-    parser.add_argument(
-        "--profile",
-        choices=("whole", "peak"),
-        default="whole",
-        help="compare whole temperature profiles (where the data hold some) or their peaks",
-    )
-    parser.add_argument(
-        "--simulations",
-        type=_count,
-        default=MOST_SIMULATIONS,
-        metavar="N",
-        help="at most that many per pressure and velocity (default %(default)s)",
-    )
-    parser.add_argument(
-        "--workers", type=_count, metavar="N", help="simulations at a time (default: one per core)"
-    )
-    parser.add_argument(
-        "--intervals",
-        choices=("student", "profile"),
-        default="student",
-        help="95 %% intervals from the covariance or the profile of the sum of squares",
-    )
-
-    def calibrate(arguments: argparse.Namespace) -> Outcome:
-        case = Case.from_toml(arguments.case, dict(map(parse_override, arguments.overrides)))
-        return calibrate_partition(
-            arguments.data,
-            case,
-            _folder(arguments),
-            profile=arguments.profile,
-            simulations=arguments.simulations,
-            intervals=arguments.intervals,
-            workers=arguments.workers,
-            quiet=arguments.quiet,
-        )
-
-    parser.set_defaults(calibrate=calibrate)
+def _add_partition(add: Callable[..., Any]) -> None:
+    text = "the block that slid; pressure and velocity come from the data"
+    add("--case", metavar="CASE.toml", required=True, help=text)
+    text = "set a key of the case; may be repeated"
+    add("--set", metavar="section.key=value", action="append", dest="overrides", help=text)
+    text = "compare whole temperature profiles (where the data hold some) or their peaks"
+    add("--profile", choices=("whole", "peak"), help=text)
+    text = f"at most that many per pressure and velocity (default {MOST_SIMULATIONS})"
+    add("--simulations", type=_count, metavar="N", help=text)
+    add("--workers", type=_count, metavar="N", help="simulations at a time (default: one per core)")
+    text = "95 %% intervals from the covariance or the profile of the sum of squares"
+    add("--intervals", choices=("student", "profile"), help=text)
 
 
-def _add_common(parser: argparse.ArgumentParser, unit: str) -> None:
-    parser.add_argument(
-        "--fix", metavar="NAME=VALUE", type=_fixed, action="append", help="hold a parameter"
-    )
-    parser.add_argument("--starts", type=_count, default=20, help="starting points")
-    _add_robust(parser, unit)
-    parser.add_argument("--no-compare", action="store_true", help="leave out the other models")
+def _partition(path: str, *, case: str, overrides: Sequence[str] = (), **options: Any) -> Outcome:
+    block = Case.from_toml(case, dict(map(parse_override, overrides)))
+    return calibrate_partition(path, block, **options)
 
 
-def _add_robust(parser: argparse.ArgumentParser, unit: str) -> None:
-    parser.add_argument(
-        "--loss",
-        choices=("linear", "soft_l1", "huber", "cauchy"),
-        default="linear",
-        help="a robust loss bounds the pull of outliers",
-    )
-    parser.add_argument("--noise", type=_positive, help=f"residual where that begins [{unit}]")
-    parser.add_argument(
-        "--intervals",
-        choices=("student", "profile", "bootstrap"),
-        default="student",
-        help="95 %% intervals from the covariance, the profile or resampling",
-    )
+def _add_T_ref(add: Callable[..., Any], of: str, default: float | None = None) -> None:
+    text = f"temperature {of}"
+    add("--T-ref", type=_celsius, default=default, metavar="C", dest="T_ref_C", help=text)
 
 
-def _common(arguments: argparse.Namespace) -> dict[str, Any]:
-    fixed = None if arguments.fix is None else dict(arguments.fix)
-    return {
-        "fixed": fixed,
-        "starts": arguments.starts,
-        "loss": arguments.loss,
-        "compare": not arguments.no_compare,
-        "intervals": arguments.intervals,
-    }
+def _add_fix(add: Callable[..., Any]) -> None:
+    text = "hold a parameter"
+    add("--fix", metavar="NAME=VALUE", type=_fixed, action="append", dest="fixed", help=text)
+
+
+def _add_comparing(add: Callable[..., Any], unit: str, noise: str = "noise") -> None:
+    _add_fix(add)
+    add("--starts", type=_count, help="starting points")
+    _add_robust(add, unit, noise)
+    text = "leave out the other models"
+    add("--no-compare", action="store_const", const=False, dest="compare", help=text)
+
+
+def _add_robust(add: Callable[..., Any], unit: str, noise: str = "noise") -> None:
+    text = "a robust loss bounds the pull of outliers"
+    add("--loss", choices=("linear", "soft_l1", "huber", "cauchy"), help=text)
+    text = f"residual where that begins [{unit}]"
+    add("--noise", type=_positive, dest=noise, metavar="NOISE", help=text)
+    text = "95 %% intervals from the covariance, the profile or resampling"
+    add("--intervals", choices=("student", "profile", "bootstrap"), help=text)
 
 
 def _finite(text: str) -> float:
@@ -479,15 +329,29 @@ def _fixed(text: str) -> tuple[str, float]:
     return name.strip(), _finite(value)
 
 
-KINDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
-    "hyperelastic": (_add_hyperelastic, "a hyperelastic model to stress-stretch tests"),
-    "viscoelastic": (
-        _add_viscoelastic,
-        "relaxation times to stress histories or frequency sweeps",
+#: What is fitted, its options, and how; the path of the data comes first.
+KINDS: dict[str, tuple[str, Callable[[Callable[..., Any]], None], Callable[..., Outcome]]] = {
+    "hyperelastic": (
+        "a hyperelastic model to stress-stretch tests",
+        _add_hyperelastic,
+        calibrate_hyperelastic,
     ),
-    "mullins": (_add_mullins, "softening to first and later cycles"),
-    "friction": (_add_friction, "a friction law to friction coefficients"),
-    "partition": (_add_partition, "the heat partition to surface temperatures of sliding blocks"),
-    "conductance": (_add_conductance, "the gap conductance to a static heating test"),
-    "wlf": (_add_wlf, "the WLF shift to shift factors or frequency sweeps"),
+    "viscoelastic": (
+        "relaxation times to stress histories or frequency sweeps",
+        _add_viscoelastic,
+        _viscoelastic,
+    ),
+    "mullins": ("softening to first and later cycles", _add_mullins, calibrate_mullins),
+    "friction": ("a friction law to friction coefficients", _add_friction, _friction),
+    "partition": (
+        "the heat partition to surface temperatures of sliding blocks",
+        _add_partition,
+        _partition,
+    ),
+    "conductance": (
+        "the gap conductance to a static heating test",
+        _add_conductance,
+        calibrate_conductance,
+    ),
+    "wlf": ("the WLF shift to shift factors or frequency sweeps", _add_wlf, calibrate_wlf),
 }
