@@ -349,6 +349,11 @@ def _add_compare(commands: Any) -> None:
         metavar="DIR",
         help="folder of tables and pictures (default: results/comparison)",
     )
+    parser.add_argument(
+        "--pyrometer",
+        action="store_true",
+        help="temperatures are what the [pyrometer] of the cases reads off the road's end",
+    )
     _add_accept_unusual(parser)
     parser.set_defaults(command=_compare)
 
@@ -360,7 +365,9 @@ def _compare(arguments: argparse.Namespace) -> int:
     directory = chosen_output(arguments.output, Path("results/comparison"))
     try:
         with output_folder(directory):
-            report = write_comparison(arguments.measured, arguments.results, directory)
+            report = write_comparison(
+                arguments.measured, arguments.results, directory, pyrometer=arguments.pyrometer
+            )
     except DataError as error:
         print(f"treadfem: {error}", file=sys.stderr)
         return BAD_INPUT

@@ -173,6 +173,7 @@ def simulate(
             *closing_lines(outcome, summary["warnings"]),
         ],
         bottom=run.bottom.table() if run.model.mechanics.deforms else None,
+        pyrometer=run.pyrometer.table(),
     )
 
 
@@ -220,6 +221,7 @@ def _summary(run: Run, outcome: Outcome) -> dict[str, Any]:
         "program_version": program_version(),
         "sliding_regime": regime.name,
         "stick_slip_cycles": regime.cycles,
+        **run.pyrometer.summary(),
         **block_summaries(history, mechanics.mesh.blocks),
         "warnings": [
             *case.warnings,

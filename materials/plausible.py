@@ -249,6 +249,23 @@ BLOCK_SIZE = Quantity(
 SIPE_WIDTH = Quantity(
     "the width of a sipe", "mm", possible=(0.02, 20.0), usual=(0.1, 3.0), slips=_METRES
 )
+#: Between the end of the road and the pyrometer's spot.
+PYROMETER_GAP = Quantity(
+    what="a gap from the end of the road to the spot of a pyrometer",
+    unit="mm",
+    possible=(0.0, 1e4),
+    usual=(0.5, 500.0),
+    zero=True,
+    slips=_METRES,
+)
+PYROMETER_SPOT = Quantity(
+    what="the width of a pyrometer's spot",
+    unit="mm",
+    possible=(0.0, 200.0),
+    usual=(0.1, 20.0),
+    zero=True,
+    slips=_METRES,
+)
 #: On the bottom of a block.
 POSITION = Quantity(
     "a position",

@@ -23,7 +23,7 @@ from fem.case.heat import Heat
 from fem.case.loading import Loading
 from fem.case.reading import Source, absolute_files, apply_overrides, find_mesh_file, read_toml
 from fem.case.rubber import Rubber
-from fem.case.sections import Output, Road, Solver, Wear
+from fem.case.sections import Output, Pyrometer, Road, Solver, Wear
 from fem.case.validation import case_error, refuse_unknown_keys
 from fem.case.writing import section_lines
 from materials.plausible import FRICTION, Finding, judge
@@ -34,7 +34,7 @@ _HARDEST_PRESS = 10.0
 _PEAK_PRESSURE = 100.0
 
 
-_SECTIONS = ("block", "rubber", "road", "friction", "heat", "wear")
+_SECTIONS = ("block", "rubber", "road", "friction", "heat", "wear", "pyrometer")
 
 
 class Case(Section):
@@ -42,8 +42,10 @@ class Case(Section):
 
     Attributes
     ----------
-    block, rubber, road, friction, heat, loading, solver, output : Section
+    block, rubber, road, friction, heat, wear, loading, solver, output : Section
         The tables of the case file, in its units.
+    pyrometer : Section or None
+        Only where the case has one.
 
     Examples
     --------
@@ -60,6 +62,7 @@ class Case(Section):
     friction: Friction = Field(default_factory=Friction)
     heat: Heat = Field(Heat())
     wear: Wear = Field(Wear())
+    pyrometer: Pyrometer | None = Field(None)
     solver: Solver = Field(Solver())
     output: Output = Field(Output())
 
@@ -76,6 +79,9 @@ class Case(Section):
                 f"at most {_HARDEST_PRESS * modulus:.4g} N/mm^2, ten times the shear modulus",
             )
         self._refuse_negative_friction()
+        if self.pyrometer is not None and self.loading.last_velocity == 0.0:
+            found = "a block that stands at the end of its last contact"
+            refuse("pyrometer", found, "one that slides, and runs off the road at its speed")
         pole = self.friction.pole_C
         if self.friction.wlf and self.heat.ambient_C <= pole:
             refuse(
@@ -216,7 +222,8 @@ class Case(Section):
         """Return the resolved case as TOML with a comment of meaning and unit at each key."""
         lines = [f"# {line}".rstrip() for line in heading.splitlines()]
         for name in (*_SECTIONS, "loading", "solver", "output"):
-            lines += ["", *section_lines(name, getattr(self, name))]
+            if (section := getattr(self, name)) is not None:
+                lines += ["", *section_lines(name, section)]
         return "\n".join(lines) + "\n"
 
     def __eq__(self, other: object) -> bool:

@@ -271,6 +271,15 @@ class Loading(Section):
         return max(map(abs, _velocities(self.phases)))
 
     @property
+    def last_velocity(self) -> float:
+        """Velocity at the end of the last contact [mm/s]."""
+        last = next(phase for phase in reversed(self.phases) if not isinstance(phase, Lift))
+        if isinstance(last, Record):
+            ends = [end for _, end, on_road in last.signal.contacts() if on_road]
+            return last.signal.at(last.signal.v, ends[-1])
+        return last.velocity_mm_per_s if isinstance(last, Slide) else 0.0
+
+    @property
     def duration_s(self) -> float:
         """Time of the event, accelerations left out [s]."""
         return self.repeat * sum(p.duration for p in self.phases)

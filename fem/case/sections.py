@@ -8,9 +8,11 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator, model_validator
 
 from contact.wear import EnergyWear
-from fem.case.base import Positive, Section, Within, refuse
+from fem.case.base import NotNegative, Positive, Section, Within, refuse
 from materials.plausible import (
     CONDUCTIVITY,
+    PYROMETER_GAP,
+    PYROMETER_SPOT,
     SOLID_DENSITY,
     SPECIFIC_HEAT,
 )
@@ -123,6 +125,17 @@ class Wear(Section):
             power_exponent=self.power_exponent,
             reference_power=self.power_reference_W_per_mm2,
         )
+
+
+class Pyrometer(Section):
+    """A pyrometer behind the end of the road, which sees the bottom of the block run off."""
+
+    gap_mm: Annotated[NotNegative, Within(PYROMETER_GAP)] = Field(
+        description="from the end of the road to the near edge of the spot [mm]"
+    )
+    spot_mm: Annotated[NotNegative, Within(PYROMETER_SPOT)] = Field(
+        description="width of the spot along the sliding direction; 0: a point [mm]"
+    )
 
 
 class Output(Section):

@@ -21,6 +21,7 @@ and may remember: viscoelastic = {g = [0.5, 0.2], tau_s = [1e-3, 1e-1]} (moduli,
 [friction] takes law = "exponential" with A, B, C, or law = "coulomb" with mu.
 [rubber], [friction] and [heat] also take parameters = "file.toml", the result of a calibration;
 a relative name is relative to this file, and keys given here win over those given there.
+[pyrometer] gap_mm = 10.0, spot_mm = 3.0 gives what a pyrometer behind the end of the road reads.
 [block] mesh also takes {cells_x = 80, cells_y = 36, smallest_x_mm = 0.12, smallest_y_mm = 0.04}."""
 
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         window_warnings,
     )
     from fem.results.outcome import INTERRUPTED, OK, Outcome, failed, stoppable
+    from fem.results.pyrometer import PYROMETER, PYROMETER_FILE
     from fem.results.result import (
         CASE_FILE,
         FIGURES_FOLDER,

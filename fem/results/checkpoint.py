@@ -25,7 +25,7 @@ T = TypeVar("T")
 #: Name of the file in the folder of a run.
 CHECKPOINT_FILE = "checkpoint.npz"
 #: Version of the layout of the file.
-FORMAT = 6
+FORMAT = 7
 #: Largest share of the run time that may go into checkpoints; longer intervals keep to it.
 COST_SHARE = 0.01
 _ABOUT = "about"

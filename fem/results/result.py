@@ -19,6 +19,7 @@ from fem.results.boundary import surface_table
 from fem.results.columns import BOUNDARY, HISTORY, SUMMARY, SURFACE, in_order
 from fem.results.contacts import contacts_table
 from fem.results.fields import FIELDS_FILE, read_fields, write_fields
+from fem.results.pyrometer import PYROMETER, PYROMETER_FILE
 from fem.results.snapshot import BlockGeometry, Snapshot
 
 CASE_FILE = "case.toml"
@@ -70,6 +71,9 @@ class Result:
         Lines of the run's log.
     bottom : BottomHistory or None
         Stick, slip and pressure along the bottom at every accepted step; none of a rigid block.
+    pyrometer : DataFrame or None
+        What a pyrometer reads, columns of `fem.results.pyrometer.PYROMETER`; None without one,
+        and of a run that did not get to the end of its last contact.
 
     Examples
     --------
@@ -92,6 +96,7 @@ class Result:
     snapshots: list[Snapshot] = field(default_factory=list)
     log: tuple[str, ...] = ()
     bottom: BottomHistory | None = None
+    pyrometer: pd.DataFrame | None = None
 
     @classmethod
     def from_rows(
@@ -105,6 +110,7 @@ class Result:
         log: Sequence[str] = (),
         *,
         bottom: BottomHistory | None = None,
+        pyrometer: pd.DataFrame | None = None,
     ) -> Result:
         """Build a result from what the recorder collected.
 
@@ -134,6 +140,7 @@ class Result:
             snapshots=list(snapshots),
             log=tuple(log),
             bottom=bottom,
+            pyrometer=pyrometer,
         )
 
     @property
@@ -149,15 +156,17 @@ class Result:
         Everything is written into a temporary folder first; see `staged_directory`.
         """
         # Figures of an earlier result are drawn anew from this one, or they are not there.
-        outdated = (*VTU_FILES, BOTTOM_FILE, CONTACTS_FILE, f"{FIGURES_FOLDER}/*.*")
+        tables = (BOTTOM_FILE, CONTACTS_FILE, PYROMETER_FILE)
+        outdated = (*VTU_FILES, *tables, f"{FIGURES_FOLDER}/*.*")
         with staged_directory(directory, outdated=outdated, last=SUMMARY_JSON) as stage:
             (stage / CASE_FILE).write_text(self.case.to_toml(), encoding="utf-8")
             (stage / LOG_FILE).write_text("".join(f"{x}\n" for x in self.log), encoding="utf-8")
             self.history.to_csv(stage / HISTORY_FILE, index=False, lineterminator="\n")
             self.surface.to_csv(stage / SURFACE_FILE, index=False, lineterminator="\n")
             self.boundary.to_csv(stage / BOUNDARY_FILE, index=False, lineterminator="\n")
-            if (contacts := self.contacts) is not None:
-                contacts.to_csv(stage / CONTACTS_FILE, index=False, lineterminator="\n")
+            for name, table in ((CONTACTS_FILE, self.contacts), (PYROMETER_FILE, self.pyrometer)):
+                if table is not None:
+                    table.to_csv(stage / name, index=False, lineterminator="\n")
             if self.bottom is not None:
                 self.bottom.write(stage / BOTTOM_FILE)
             write_summary(stage, self.summary)
@@ -178,7 +187,7 @@ class Result:
         """
         directory = Path(directory)
         geometry, snapshots = read_fields(directory / FIELDS_FILE)
-        bottom = directory / BOTTOM_FILE
+        bottom, pyrometer = directory / BOTTOM_FILE, directory / PYROMETER_FILE
         return cls(
             case=Case.from_toml(_existing(directory / CASE_FILE)),
             history=read_table(directory / HISTORY_FILE, HISTORY),
@@ -189,6 +198,7 @@ class Result:
             snapshots=snapshots,
             log=tuple(_existing(directory / LOG_FILE).read_text(encoding="utf-8").splitlines()),
             bottom=BottomHistory.read(bottom) if bottom.is_file() else None,
+            pyrometer=read_table(pyrometer, PYROMETER) if pyrometer.is_file() else None,
         )
 
 

@@ -7,15 +7,10 @@ motion over the road, the time that takes), how long steps may be, and how far t
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import floor, inf, log2
-from typing import Protocol
+from typing import Any, Protocol
 
-import numpy as np
 from scipy.optimize import brentq
-
-from fem.case.signals import Signal
-from materials.arrays import FloatArray
 
 #: Distance that pressing counts as, where damping is stated by a distance [mm].
 PRESSING_MOTION = 1.0
@@ -26,10 +21,6 @@ LONGEST_PART, SHORTEST_PART = 0.25, 1e-4
 RESTING_SHARE, FIRST_REST = 0.15, 1e-4
 #: Sub-steps of the heat in a step at rest: backward Euler then errs by half a per cent.
 RESTING_PARTS = 4
-
-
-#: Parts of a record that its steps are chosen by, and the least share of a longest step in each.
-RECORD_PARTS, LEAST_EFFORT = 400, 0.05
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,6 +85,10 @@ class Phase(Protocol):
         """Whether it begins with a block that comes down from the air."""
 
     @property
+    def on_road(self) -> bool:
+        """Whether the block is meant to touch the road."""
+
+    @property
     def end(self) -> float:
         """Last value of the coordinate."""
 
@@ -128,7 +123,7 @@ class Phase(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Steps:
+class Steps:
     """What all phases have.
 
     Attributes
@@ -156,14 +151,19 @@ class _Steps:
 
     onset = False
     growth = 1.5
+    on_road = True
 
     def longest(self, at: float) -> float:
         """Longest step from a coordinate on."""
         return self.step_max
 
+    def slid(self, at: float) -> float:
+        """Distance over the road since the start of the phase [mm]; none where nothing slides."""
+        return 0.0
+
 
 @dataclass(frozen=True, kw_only=True)
-class Press(_Steps):
+class Press(Steps):
     """The force changes in proportion to time; the coordinate is the part of the change.
 
     Attributes
@@ -177,9 +177,10 @@ class Press(_Steps):
     time: float
     force: float
     force_before: float = 0.0
-    name: str = "pressing"
-    unit: str = " of the load"
-    end: float = 1.0
+
+    name = "pressing"
+    unit = " of the load"
+    end = 1.0
 
     def target(self, start: float, stop: float) -> Target:
         """What a step between two parts does."""
@@ -192,13 +193,9 @@ class Press(_Steps):
             convection=self.convection,
         )
 
-    def slid(self, at: float) -> float:
-        """None."""
-        return 0.0
-
 
 @dataclass(frozen=True, kw_only=True)
-class Slide(_Steps):
+class Slide(Steps):
     """The platen slides at a constant force; the coordinate is the distance [mm].
 
     Attributes
@@ -226,8 +223,9 @@ class Slide(_Steps):
     acceleration_distance: float = 0.0
     onset_share: float = inf
     onset: bool = False
-    name: str = "sliding"
-    unit: str = " mm"
+
+    name = "sliding"
+    unit = " mm"
 
     def longest(self, at: float) -> float:
         """Longest step from a distance on."""
@@ -252,120 +250,61 @@ class Slide(_Steps):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Hold(_Steps):
-    """The platen stands at a constant force; the coordinate is time [s], and steps follow the heat.
+class _AtRest(Steps):
+    """Nothing moves; the coordinate is time [s], and steps follow the heat.
 
     Attributes
     ----------
     end : float
         Duration [s].
-    force : float
-        On the platen [N/mm].
     """
 
     end: float
-    force: float
-    name: str = "holding"
-    unit: str = " s"
+
+    unit = " s"
     growth = 2.0
 
     def longest(self, at: float) -> float:
-        """Longest step from a time on."""
-        return at_rest(self.step_initial, at)
+        """Longest step from a time on: the first one times a power of 2.
 
-    def target(self, start: float, stop: float) -> Target:
-        """What a step between two times does."""
-        dt = stop - start
-        return Target(
-            dt=dt, sweep=0.0, force=self.force, motion=PRESSING_MOTION * dt / self.end,
-            convection=self.convection, inertia=False, heat_parts=RESTING_PARTS,
-        )  # fmt: skip
-
-    def slid(self, at: float) -> float:
-        """None."""
-        return 0.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class Follow(_Steps):
-    """The platen follows measured velocity and pressure; the coordinate is time [s].
-
-    A step does the way that was measured in it, under the mean pressure of its second half and of
-    as long a time after it: noise averages out, and steps are as long as what happens lets them.
-
-    Attributes
-    ----------
-    signal : Signal
-        What was measured.
-    since, end : float
-        Start in the signal, and duration [s].
-    length : float
-        Of the block's top [mm].
-    path_max, pressure_max : float
-        Way [mm] and change of the pressure [N/mm^2] in a step at most.
-    onset_share : float
-        Longest way of a step relative to that since the start, beyond the first one.
-    """
-
-    signal: Signal
-    since: float
-    end: float
-    length: float
-    path_max: float
-    path_initial: float
-    pressure_max: float
-    onset_share: float = inf
-    name: str = "following"
-    unit: str = " s"
-
-    def slid(self, at: float) -> float:
-        """Way over the road, back and forth [mm]."""
-        path = self.signal.path
-        return self.signal.at(path, self.since + at) - self.signal.at(path, self.since)
-
-    def longest(self, at: float) -> float:
-        """Longest step from a time on [s]."""
-        return float(np.interp(self._effort(at) + 1.0, self._measure[1], self._measure[0])) - at
-
-    def _effort(self, at: float) -> float:
-        return float(np.interp(at, *self._measure))
-
-    @cached_property
-    def _measure(self) -> tuple[FloatArray, FloatArray]:
-        """Times, and how many of the longest steps it takes to come there.
-
-        Of means over parts of the record: what noise does between two rows is no event.
+        Steps of equal length share their matrices of conduction.
         """
-        t = np.linspace(0.0, self.end, RECORD_PARTS + 1)
-        path = np.interp(self.since + t, self.signal.t, self.signal.path)
-        path = path - path[0]
-        impulse = np.interp(self.since + t, self.signal.t, self.signal.impulse)
-        p = np.diff(impulse) / np.diff(t)
-        change = np.abs(np.diff(p, append=p[-1]))
-        middle = 0.5 * (path[1:] + path[:-1])
-        longest = np.clip(self.onset_share * middle, self.path_initial, self.path_max)
-        parts = np.maximum(np.diff(path) / longest, change / self.pressure_max)
-        return t, np.concatenate([[0.0], np.cumsum(np.maximum(parts, LEAST_EFFORT))])
+        first = self.step_initial
+        return first * 2.0 ** floor(log2(max(RESTING_SHARE * at / first, 1.0)))
 
-    def target(self, start: float, stop: float) -> Target:
-        """What a step between two times does."""
-        signal, dt = self.signal, stop - start
-        begin, end = self.since + start, self.since + stop
-        half = 0.5 * min(dt, signal.duration - end) or 0.5 * dt
-        after = min(end + half, self.since + self.end)
-        pressure = max(signal.mean(signal.impulse, end - half, after), 0.0)
-        motion = signal.at(signal.path, end) - signal.at(signal.path, begin)
+    def _resting(self, dt: float, **more: Any) -> Target:
         return Target(
             dt=dt,
-            sweep=signal.at(signal.position, end) - signal.at(signal.position, begin),
-            force=pressure * self.length,
-            motion=max(motion, PRESSING_MOTION * dt / self.end),
+            sweep=0.0,
             convection=self.convection,
+            inertia=False,
+            heat_parts=RESTING_PARTS,
+            **more,
         )
 
 
 @dataclass(frozen=True, kw_only=True)
-class LiftOff(_Steps):
+class Hold(_AtRest):
+    """The platen stands at a constant force.
+
+    Attributes
+    ----------
+    force : float
+        On the platen [N/mm].
+    """
+
+    force: float
+
+    name = "holding"
+
+    def target(self, start: float, stop: float) -> Target:
+        """What a step between two times does."""
+        dt = stop - start
+        return self._resting(dt, force=self.force, motion=PRESSING_MOTION * dt / self.end)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LiftOff(Steps):
     """The platen rises until nothing touches; the coordinate is the part of its rise.
 
     Attributes
@@ -378,60 +317,42 @@ class LiftOff(_Steps):
 
     time: float
     rise: float
-    name: str = "lifting"
-    unit: str = " of the rise"
-    end: float = 1.0
+
+    name = "lifting"
+    unit = " of the rise"
+    end = 1.0
+    on_road = False
 
     def target(self, start: float, stop: float) -> Target:
         """What a step between two parts does."""
         share = stop - start
         return Target(
-            dt=self.time * share, sweep=0.0, force=0.0, raised=self.rise * share,
-            motion=PRESSING_MOTION * share, convection=self.convection, inertia=False,
-        )  # fmt: skip
-
-    def slid(self, at: float) -> float:
-        """None."""
-        return 0.0
+            dt=self.time * share,
+            sweep=0.0,
+            force=0.0,
+            raised=self.rise * share,
+            motion=PRESSING_MOTION * share,
+            convection=self.convection,
+            inertia=False,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rest(_Steps):
-    """The block hangs in air; the coordinate is time [s], and steps follow the heat."""
+class Rest(_AtRest):
+    """The block hangs in air."""
 
-    end: float
-    name: str = "in air"
-    unit: str = " s"
-    growth = 2.0
-
-    def longest(self, at: float) -> float:
-        """Longest step from a time on."""
-        return at_rest(self.step_initial, at)
+    name = "in air"
+    on_road = False
 
     def target(self, start: float, stop: float) -> Target:
         """What a step between two times does."""
-        return Target(
-            dt=stop - start,
-            sweep=0.0,
-            force=0.0,
-            raised=0.0,
-            motion=PRESSING_MOTION,
-            convection=self.convection,
-            inertia=False,
-            heat_parts=RESTING_PARTS,
-        )
-
-    def slid(self, at: float) -> float:
-        """None."""
-        return 0.0
+        return self._resting(stop - start, force=0.0, raised=0.0, motion=PRESSING_MOTION)
 
 
-def at_rest(first: float, at: float) -> float:
-    """Longest step from a time at rest on [s]: the first one times a power of 2.
-
-    Steps of equal length share their matrices of conduction.
-    """
-    return first * 2.0 ** max(floor(log2(max(RESTING_SHARE * at / first, 1.0))), 0)
+def resting_steps(duration: float, scale: float = 1.0) -> dict[str, Any]:
+    """Limits of the steps of a rest of a duration [s], for its constructor."""
+    first = min(FIRST_REST, 0.1 * duration) * scale
+    return {"step_initial": first, "step_max": duration, "step_min": 1e-3 * first}
 
 
 def sliding_time(distance: float, speed: float, ramp: float, start: float = 0.0) -> float:
@@ -462,6 +383,8 @@ def sliding_time(distance: float, speed: float, ramp: float, start: float = 0.0)
     # The distance is the integral of the speed; from rest s/ramp = 2 tau^3 - tau^4.
     tau = brentq(
         lambda tau: change * tau**3 * (2.0 - tau) + (1.0 - change) * tau - distance / ramp,
-        0.0, 1.0, xtol=1e-14,
-    )  # fmt: skip
+        0.0,
+        1.0,
+        xtol=1e-14,
+    )
     return float(tau * 2.0 * ramp / (speed + start))

@@ -9,6 +9,7 @@ import numpy as np
 from fem.results import BottomHistory, Snapshot
 from fem.stepping.audit import EnergyAudit
 from fem.stepping.coupled_step import CoupledState
+from fem.stepping.pyrometer import Reading
 from fem.stepping.step_control import StepPlan
 from fem.stepping.wear import Wear
 from materials.arrays import AnyArray
@@ -32,6 +33,8 @@ class RunPoint:
         Energies up to there.
     wear : Wear
         What has worn off up to there.
+    reading : Reading or None
+        What the pyrometer has read.
     iterations, rejected : int
         Newton iterations and rejected steps up to there.
     smallest_J : float
@@ -46,6 +49,7 @@ class RunPoint:
     state: CoupledState
     audit: EnergyAudit
     wear: Wear
+    reading: Reading | None
     iterations: int
     rejected: int
     smallest_J: float

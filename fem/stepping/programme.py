@@ -11,18 +11,18 @@ from fem.case import loading
 from fem.case.case import Case
 from fem.case.signals import Signal
 from fem.stepping.phases import (
-    FIRST_REST,
     LONGEST_PART,
     SHORTEST_PART,
-    Follow,
     Hold,
     LiftOff,
     Phase,
     Press,
     Rest,
     Slide,
+    resting_steps,
     sliding_time,
 )
+from fem.stepping.record import Follow
 from materials.units import W_PER_M2_K
 
 #: Longest sliding step over the distance slid. The edge rolls under at a few millimetres; in longer
@@ -157,14 +157,10 @@ class _Builder:
                 end=duration,
                 force=self.force,
                 touches_down=touches_down,
-                **self._steps_at_rest(duration),
+                **resting_steps(duration, self.scale),
                 **self._common(),
             )
         )
-
-    def _steps_at_rest(self, duration: float) -> dict[str, Any]:
-        first = min(FIRST_REST, 0.1 * duration) * self.scale
-        return {"step_initial": first, "step_max": duration, "step_min": 1e-3 * first}
 
     def _follow(self, signal: Signal, start: float, end: float) -> None:
         """Follow what was measured on the road."""
@@ -215,7 +211,7 @@ class _Builder:
                 )
             )
             rest -= time
-        self.phases.append(Rest(end=rest, **self._steps_at_rest(rest), **common))
+        self.phases.append(Rest(end=rest, **resting_steps(rest, self.scale), **common))
 
 
 def _distance(phase: loading.Slide, speed: float, start: float, ramp: float) -> float:

@@ -1,8 +1,8 @@
 """The time loop: from phase to phase and from step to step, whatever is done to whichever block.
 
 After each accepted step the observers look at it in one fixed order: energy audit, wear, history,
-bottom, snapshots; then the run stands at its next point, which a checkpoint may keep and progress
-reports.
+bottom, snapshots, pyrometer; then the run stands at its next point, which a checkpoint may keep
+and progress reports.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from fem.stepping.moment import Moment, Observer
 from fem.stepping.observers.bottom import BottomRecorder
 from fem.stepping.observers.fields import SnapshotTaker
 from fem.stepping.observers.history import HistoryRecorder
+from fem.stepping.observers.pyrometer import PyrometerReader
 from fem.stepping.observers.wear import WearRecorder
 from fem.stepping.phases import Phase
 from fem.stepping.point import Records, RunPoint, RunRecord, columns
@@ -66,9 +67,15 @@ class Run:
         self.history = HistoryRecorder(case, model, self.auditor, self.wear)
         self.bottom = BottomRecorder(mesh)
         self.fields = SnapshotTaker(case, model, self.phases)
+        self.pyrometer = PyrometerReader(case, model, self.phases)
         self.observers: tuple[Observer, ...] = (
-            self.auditor, self.wear, self.history, self.bottom, self.fields,
-        )  # fmt: skip
+            self.auditor,
+            self.wear,
+            self.history,
+            self.bottom,
+            self.fields,
+            self.pyrometer,
+        )
         self.state = model.initial_state()
         self.iterations = self.rejected = 0
         rigid = "" if mechanics.deforms else "rigid "
@@ -97,20 +104,32 @@ class Run:
 
     def _point(self, phase: int, plan: StepPlan, distance: float) -> RunPoint:
         return RunPoint(
-            phase=phase, plan=plan, distance=distance, state=self.state, audit=self.auditor.audit,
+            phase=phase,
+            plan=plan,
+            distance=distance,
+            state=self.state,
+            audit=self.auditor.audit,
             wear=self.wear.wear,
-            iterations=self.iterations, rejected=self.rejected, smallest_J=self.history.smallest_J,
-            rows=len(self.history.rows), snapshots=len(self.fields.snapshots), log=len(self.log),
-        )  # fmt: skip
+            reading=self.pyrometer.reading,
+            iterations=self.iterations,
+            rejected=self.rejected,
+            smallest_J=self.history.smallest_J,
+            rows=len(self.history.rows),
+            snapshots=len(self.fields.snapshots),
+            log=len(self.log),
+        )
 
     def kept(self) -> RunRecord:
         """What a checkpoint holds: the last point, and the records up to it."""
         point = self.point
         records = Records(
             history=columns(self.history.rows[: point.rows]),
-            snapshots=self.fields.snapshots[: point.snapshots], log=self.log[: point.log],
-            wall_s=self.wall, solver_s=self.solver_seconds, bottom=self.bottom.table(point.rows),
-        )  # fmt: skip
+            snapshots=self.fields.snapshots[: point.snapshots],
+            log=self.log[: point.log],
+            wall_s=self.wall,
+            solver_s=self.solver_seconds,
+            bottom=self.bottom.table(point.rows),
+        )
         return RunRecord(point=point, records=records)
 
     def go_on_from(self, kept: RunRecord) -> None:
@@ -118,6 +137,7 @@ class Run:
         point, records = kept.point, kept.records
         self.point, self.state = point, point.state
         self.auditor.audit, self.wear.wear = point.audit, point.wear
+        self.pyrometer.reading = point.reading
         self.iterations, self.rejected = point.iterations, point.rejected
         self.history.rows, self.history.smallest_J = records.rows, point.smallest_J
         self.bottom.go_on_from(records.bottom)
@@ -155,10 +175,14 @@ class Run:
             if isinstance(attempt, AcceptedStep):
                 self._accept(
                     Moment(
-                        step=attempt, phase=phase, number=number, snaps=plan.failed,
-                        distance=before + phase.slid(stop), ends=stop == phase.end,
+                        step=attempt,
+                        phase=phase,
+                        number=number,
+                        snaps=plan.failed,
+                        distance=before + phase.slid(stop),
+                        ends=stop == phase.end,
                     )
-                )  # fmt: skip
+                )
                 plan = control.accepted(plan, length, attempt.hardest_pass, left, at=stop)
                 tried = 0.0
                 self.point = self._point(number, plan, before)

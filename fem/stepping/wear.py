@@ -21,13 +21,10 @@ class Wear:
         Friction work of the candidates per undeformed area [mJ/mm^2].
     depth : (m,) float array
         Depth that wore off [mm].
-    volume : float
-        Volume that wore off, per depth of the block [mm^2].
     """
 
     energy: FloatArray
     depth: FloatArray
-    volume: float = 0.0
 
     @classmethod
     def none(cls, mesh: BlockMesh) -> Wear:
@@ -53,9 +50,4 @@ def worn(wear: Wear, power: FloatArray, dt: float, law: EnergyWear, length: Floa
         Undeformed length of surface of each candidate [mm].
     """
     density = np.maximum(power, 0.0) / length
-    depth = law.depth_rate(density) * dt
-    return Wear(
-        energy=wear.energy + density * dt,
-        depth=wear.depth + depth,
-        volume=wear.volume + float(depth @ length),
-    )
+    return Wear(energy=wear.energy + density * dt, depth=wear.depth + law.depth_rate(density) * dt)

@@ -23,6 +23,7 @@ def wrong(
 
 
 GOOD = event(PRESS, SLIDE, LIFT)
+PYRO = "[pyrometer]\ngap_mm = 5\n"
 
 EVENTS = [
     wrong("no phases at all", "[loading]\nphase = []\n", "loading.mean_pressure", "nothing", "key"),
@@ -115,6 +116,28 @@ EVENTS = [
         "lift",
         "0 to 2",
         "loading.phase.lift.time_s=1",
+    ),
+    wrong("pyrometer without a spot", GOOD + PYRO, "pyrometer.spot_mm", "nothing", "this key"),
+    wrong("pyrometer on the road", GOOD + PYRO.replace("5", "-5"), "pyrometer.gap_mm", "-5", "0"),
+    wrong(
+        "gap in micrometres",
+        GOOD + PYRO.replace("5", "50000"),
+        "pyrometer.gap_mm",
+        "50000.0, which looks like micrometres (50 mm)",
+        "from 0 to 10000 mm",
+    ),
+    wrong("spot of a metre", GOOD + PYRO + "spot_mm = 1000\n", "spot_mm", "1000", "to 200 mm"),
+    wrong("spot of no number", GOOD + PYRO + "spot_mm = nan\n", "spot_mm", "nan", "finite"),
+    wrong("misspelt spot", GOOD + PYRO + "spot = 2\n", "pyrometer.spot", "unknown", "spot_mm"),
+    wrong("two pyrometers", GOOD + "[[pyrometer]]\n", "pyrometer", "array", "a table of keys"),
+    wrong(
+        "block that stands before the pyrometer",
+        event(PRESS, SLIDE, 'kind = "slide"\nvelocity_mm_per_s = 0.0\ntime_s = 1.0\n', LIFT)
+        + PYRO
+        + "spot_mm = 2\n",
+        "pyrometer",
+        "a block that stands at the end of its last contact",
+        "slides",
     ),
     wrong("wear that gives", GOOD + "[wear]\ncoefficient_mm3_per_J = -1.0\n", "wear.coeff", "-1"),
 ]

@@ -51,6 +51,12 @@ UNUSUAL_INPUTS = [
         expected=("loading.distance_mm: 0.12 is unusual", "metres (120 mm)"),
     ),
     WrongInput(
+        kind="case: pyrometer in metres",
+        words=("check", "case.toml", "--set", "pyrometer.spot_mm=0.005"),
+        files={"case.toml": LOADING + "[pyrometer]\ngap_mm = 10.0\n"},
+        expected=("pyrometer.spot_mm: 0.005 is unusual", "metres (5 mm)"),
+    ),
+    WrongInput(
         kind="case: pressure in bar",
         words=("check", "case.toml", "--set", "loading.mean_pressure_N_per_mm2=2.5"),
         files={"case.toml": LOADING},

@@ -25,6 +25,7 @@ from validation.drawing.block_drawing import (
 )
 from validation.drawing.style import (
     BLUE,
+    COLUMN_WIDTH,
     GREY,
     PAGE_WIDTH,
     TEMPERATURE_MAP,
@@ -81,12 +82,39 @@ def _draw_depth(axes: Axes, result: Result) -> None:
     for number, snapshot in enumerate(shown):
         share = number / max(len(shown) - 1, 1)
         axes.plot(
-            snapshot.temperature[line], points[line, 1], color=(share, 0.2, 1.0 - share),
+            snapshot.temperature[line],
+            points[line, 1],
+            color=(share, 0.2, 1.0 - share),
             label=f"{1e3 * (snapshot.time_s - first):.3g} ms",
-        )  # fmt: skip
+        )
     axes.invert_yaxis()
     axes.set(xlabel="temperature [°C]", ylabel="depth [mm]", title="Below the middle, last contact")
     axes.legend(title="since first picture")
+
+
+@styled
+def draw_pyrometer(result: Result) -> Figure:
+    """Draw what the pyrometer reads along the bottom beside the profile at the end of contact."""
+    table, given = result.pyrometer, result.case.pyrometer
+    assert table is not None
+    assert given is not None
+    figure = new_figure(COLUMN_WIDTH, 70.0)
+    axes = figure.subplots()
+    axes.plot(table["X_mm"], table["T_C"], color=VERMILLION, label="end of contact")
+    whole = table["spot_covered"] > 1.0 - 1e-9
+    axes.plot(table["X_mm"], table["T_pyrometer_C"], color=BLUE, ls=":", label="spot over a corner")
+    read = table["T_pyrometer_C"].where(whole)
+    axes.plot(table["X_mm"], read, color=BLUE, label="pyrometer")
+    speed = result.summary["pyrometer_speed_mm_per_s"]
+    axes.set(
+        xlabel="$X$ from the trailing to the leading corner [mm]",
+        ylabel="$T$ [°C]",
+        title=f"Spot of {given.spot_mm:g} mm, {given.gap_mm:g} mm behind the road's end, "
+        f"{speed:.4g} mm/s",
+    )
+    axes.legend(loc="best")
+    axes.grid(True)
+    return figure
 
 
 def write_animation(result: Result, path: Path) -> Path:

@@ -36,7 +36,9 @@ class Report:
     unusual: tuple[str, ...]
 
 
-def write_comparison(measured: str | Path, results: str | Path, directory: str | Path) -> Report:
+def write_comparison(
+    measured: str | Path, results: str | Path, directory: str | Path, *, pyrometer: bool = False
+) -> Report:
     """Compare, write the tables and pictures into a folder, and return what is to be printed.
 
     Parameters
@@ -49,6 +51,8 @@ def write_comparison(measured: str | Path, results: str | Path, directory: str |
         For `comparison.csv`, `statistics.csv`, `measured.csv` (T_max and A_T of each test),
         `comparison.log` (what is said), `comparison.png` and, for measured profiles,
         `profiles.png`.
+    pyrometer : bool
+        Whether temperatures are those that the pyrometer of the cases reads.
 
     Raises
     ------
@@ -56,7 +60,7 @@ def write_comparison(measured: str | Path, results: str | Path, directory: str |
         In one line; nothing is written then.
     """
     measurements = read_measurements(measured)
-    runs = simulated_runs(results)
+    runs = simulated_runs(results, pyrometer=pyrometer)
     comparison = compare(measurements, runs)
     directory = Path(directory)
     tables = {
@@ -64,7 +68,8 @@ def write_comparison(measured: str | Path, results: str | Path, directory: str |
         "statistics.csv": comparison.statistics,
         "measured.csv": measurements.points.drop(columns="row"),
     }
-    said = (*measurements.notes, *comparison.notes)
+    read = "simulated temperatures are those that the pyrometer of the cases reads"
+    said = (*measurements.notes, *comparison.notes, *([read] if pyrometer else ()))
     text = _text(comparison, directory)
     lines = [*said, *(f"warning: {line}" for line in measurements.unusual), text]
     write_text(directory / "comparison.log", "\n".join(lines) + "\n")

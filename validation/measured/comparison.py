@@ -13,6 +13,8 @@ from fem.case import Case, CaseError, describe
 from fem.results import (
     CASE_FILE,
     OK,
+    PYROMETER,
+    PYROMETER_FILE,
     SUMMARY_CSV,
     SUMMARY_JSON,
     SURFACE,
@@ -42,6 +44,8 @@ _OVERHANG, _LEAST_COVERED = 0.05, 0.1
 #: and what the paper calls sufficient (section 5.2) [K].
 LIMITS_K = (*MEASURED_TO_K, ACCEPTED_K)
 ALL = "all"
+#: What a pyrometer reads of quantities of the surface, in a summary.
+_READ = {"T_max_C": "T_max_pyrometer_C", "A_T_K_mm": "A_T_pyrometer_K_mm"}
 #: Columns of words that repeat from row to row.
 _WORDS = ("case", "variant", "compound", "law")
 
@@ -68,19 +72,28 @@ class Comparison:
     notes: list[str]
 
 
-def simulated_runs(directory: str | Path) -> pd.DataFrame:
+def simulated_runs(directory: str | Path, *, pyrometer: bool = False) -> pd.DataFrame:
     """Finished runs of a sweep (or of a folder of figures, or a single run), a row each.
+
+    Parameters
+    ----------
+    directory : str or Path
+        Folder of the results.
+    pyrometer : bool
+        Whether temperatures are those that the pyrometer of the cases reads.
 
     Returns
     -------
     DataFrame
         `case, folder, variant` (what tells simulations apart beside the conditions),
-        `compound, law`, the conditions of `TOLERANCES`, `T_0_C`, `length_mm` and `QUANTITIES`.
+        `compound, law`, the conditions of `TOLERANCES`, `T_0_C`, `length_mm`, `QUANTITIES`, and
+        `pyrometer`.
 
     Raises
     ------
     CaseError
-        If the folder holds no finished run.
+        If the folder holds no finished run, or one without a pyrometer's reading where that is
+        asked for.
     """
     directory = Path(directory)
     rows, cases = [], []
@@ -90,6 +103,8 @@ def simulated_runs(directory: str | Path) -> pd.DataFrame:
         except ValueError:
             continue
         if summary["status"] == OK:
+            if pyrometer:
+                summary = _as_read(folder, summary)
             cases.append(case)
             rows.append({"case": folder.name, "folder": folder} | _of_run(case, summary))
     if not rows:
@@ -99,7 +114,18 @@ def simulated_runs(directory: str | Path) -> pd.DataFrame:
             found="no finished run",
             expected="the folder of a sweep or of a run",
         )
-    return pd.DataFrame(rows).assign(variant=_variants(cases))
+    return pd.DataFrame(rows).assign(variant=_variants(cases), pyrometer=pyrometer)
+
+
+def _as_read(folder: Path, summary: dict[str, Any]) -> dict[str, Any]:
+    """A summary with the temperatures that its pyrometer reads."""
+    if not all(name in summary for name in _READ.values()):
+        found = "a run without a pyrometer's reading"
+        expected = "[pyrometer] in its case (or no --pyrometer)"
+        raise CaseError(
+            file=str(folder / SUMMARY_JSON), key=_READ["T_max_C"], found=found, expected=expected
+        )
+    return summary | {name: summary[read] for name, read in _READ.items()}
 
 
 def _run_folders(directory: Path) -> list[Path]:
@@ -346,5 +372,8 @@ def _moments(part: pd.DataFrame, quantity: str) -> dict[str, float]:
 
 
 def surface_of(run: Mapping[Any, Any]) -> pd.DataFrame:
-    """Temperature profile of a simulated run, `X_mm` and `T_C`."""
+    """Temperature profile of a simulated run or of its pyrometer, `X_mm` and `T_C`."""
+    if run["pyrometer"]:
+        table = read_table(Path(run["folder"]) / PYROMETER_FILE, PYROMETER)
+        return table[["X_mm", "T_pyrometer_C"]].rename(columns={"T_pyrometer_C": "T_C"})
     return read_table(Path(run["folder"]) / SURFACE_FILE, SURFACE)[["X_mm", "T_C"]]

@@ -74,7 +74,7 @@ class HistoryRecorder:
             pressure = moment.step.target.force / self.case.block.pressed_length_mm
             row |= {"mean_pressure_N_per_mm2": pressure}
         if self.wear.law.coefficient > 0.0:
-            row |= {"wear_volume_mm3_per_mm": self.wear.wear.volume}
+            row |= {"wear_volume_mm3_per_mm": self.wear.volume}
         return row
 
     def _window_columns(self, step: AcceptedStep, strains: Strains) -> dict[str, float]:

@@ -17,3 +17,8 @@ class WearRecorder:
         """Add the wear of a step."""
         step = moment.step
         self.wear = worn(self.wear, step.power, step.target.dt, self.law, self.length)
+
+    @property
+    def volume(self) -> float:
+        """Volume that wore off, per depth of the block [mm^2]."""
+        return float(self.wear.depth @ self.length)

@@ -8,8 +8,9 @@ import pytest
 from fem import Case, simulate
 from fem.case import CaseError
 from fem.case.signals import Signal
-from fem.stepping.phases import Follow, Rest
+from fem.stepping.phases import Rest
 from fem.stepping.programme import programme
+from fem.stepping.record import Follow
 
 MESH = {"cells_x": 12, "cells_y": 6, "smallest_x_mm": 1.2, "smallest_y_mm": 0.8}
 SPEED, PRESSURE, TURN, ON = 300.0, 0.25, 0.05, 0.03

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,13 +13,14 @@ import treadfem
 from calibration.data.errors import DataError
 from fem.case.case import Case
 from fem.case.errors import CaseError
+from fem.results.pyrometer import pyrometer_table
 from fem.results.result import Result
 from fem.sweeps.runs import StudyRun
 from tests.made_up_result import made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
 from validation.measured.compare_command import write_comparison
-from validation.measured.comparison import compare, simulated_runs, statistics
+from validation.measured.comparison import compare, simulated_runs, statistics, surface_of
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
 from validation.measured.matching import matched
 from validation.measured.measurements import read_measurements
@@ -210,6 +212,26 @@ def results(tmp_path) -> Path:
     for law in ("huemer", "exponential"):
         write_run(tmp_path / "results" / "runs" / law, **{"friction.law": law})
     return tmp_path / "results"
+
+
+def test_pyrometer_of_the_simulation_is_compared_where_it_is_asked_for(results, tmp_path, capsys):
+    result = write_run(tmp_path / "one", **{"pyrometer.gap_mm": 5.0, "pyrometer.spot_mm": 2.0})
+    X = result.surface["X_mm"]
+    table = pyrometer_table(X, result.surface["T_C"] - 3.0, result.surface["T_C"], 1.0 + 0.0 * X)
+    read = {"T_max_pyrometer_C": 30.0, "A_T_pyrometer_K_mm": 150.0}
+    read = replace(result, pyrometer=table, summary=result.summary | read)
+    read.write(tmp_path / "one")
+    runs = {asked: simulated_runs(tmp_path / "one", pyrometer=asked) for asked in (False, True)}
+    assert [runs[asked]["T_max_C"].item() for asked in runs] == [result.summary["T_max_C"], 30.0]
+    profiles = [surface_of(runs[asked].iloc[0])["T_C"].to_numpy() for asked in runs]
+    np.testing.assert_allclose(profiles[0] - profiles[1], 3.0)
+
+    path = profiles_of(result, tmp_path / "measured.csv", shift=-3.0)
+    words = ["compare", str(path), str(tmp_path / "one"), "-o", str(tmp_path / "out")]
+    assert treadfem.main([*words, "--pyrometer"]) == 0
+    assert "those that the pyrometer" in capsys.readouterr().err
+    with pytest.raises(CaseError, match=r"found a run without a pyrometer's reading"):
+        simulated_runs(results, pyrometer=True)
 
 
 def profiles_of(result: Result, path: Path, shift: float = 0.0) -> Path:
