@@ -216,28 +216,17 @@ class CoupledModel:
         """State of a block that touches the road without a force."""
         zeros = np.zeros(self.mechanics.candidates.size)
         contact = RoadContact(
-            status=mechanics.status,
-            length=zeros,
-            normal=zeros,
-            shear=zeros,
-            pressure=zeros,
-            slip_velocity=zeros,
-            remembered_velocity=zeros,
-            slip=zeros,
-            T_before=heat.T[self.mechanics.candidates],
-            mu=zeros,
-        )
+            status=mechanics.status, length=zeros, normal=zeros, shear=zeros, pressure=zeros,
+            slip_velocity=zeros, remembered_velocity=zeros, slip=zeros,
+            T_before=heat.T[self.mechanics.candidates], mu=zeros,
+        )  # fmt: skip
         contact = replace(
             contact, pressure=np.where(mechanics.status.active, self.mean_pressure, 0)
         )
         return CoupledState(
-            time=time,
-            position=0.0,
-            mechanics=mechanics,
-            heat=heat,
-            contact=contact,
+            time=time, position=0.0, mechanics=mechanics, heat=heat, contact=contact,
             mu=self._coefficient(contact, heat, 0.0),
-        )
+        )  # fmt: skip
 
     def advance(
         self,
@@ -291,30 +280,22 @@ class CoupledModel:
                 penetration = self._penetration(problem, result.x.u)
                 if self.self_contact is not None and penetration > PENETRATION_MAX:
                     return RejectedStep(
-                        failure=newton.Failure.PENETRATION,
-                        iterations=iterations,
+                        failure=newton.Failure.PENETRATION, iterations=iterations,
                         detail=f"by {penetration:.1%} of the local element size",
-                    )
+                    )  # fmt: skip
                 return self._accept(
-                    state,
-                    target,
-                    problem,
-                    result,
-                    contact,
-                    iterations=iterations,
-                    hardest=hardest,
-                    penetration=penetration,
-                )
+                    state, target, problem, result, contact,
+                    iterations=iterations, hardest=hardest, penetration=penetration,
+                )  # fmt: skip
             start = replace(result.x, reactions=None)
             if start.pairs is not None and pairs is not None and next_pairs is not None:
                 start = replace(start, pairs=start.pairs.carried(pairs, next_pairs))
             mu, pairs = mu if mu_settled else mu_next, next_pairs
             problem = problem.again(mu, pairs)
         return RejectedStep(
-            failure=newton.Failure.ITERATIONS,
-            detail="self-contact keeps changing its partners",
+            failure=newton.Failure.ITERATIONS, detail="self-contact keeps changing its partners",
             iterations=iterations,
-        )
+        )  # fmt: skip
 
     def _pairs(self, state: CoupledState, u: FloatArray) -> Pairs | None:
         """Pairs of self-contact between the accepted state and displacements `u`."""
@@ -324,14 +305,10 @@ class CoupledModel:
         shear = state.mechanics.self_shear
         points = mechanics.mesh.points
         return find_pairs(
-            mechanics.boundary,
-            points + state.mechanics.u,
-            points + u,
-            reach=settings.reach,
-            stiffness=settings.stiffness,
-            mu=settings.mu,
+            mechanics.boundary, points + state.mechanics.u, points + u,
+            reach=settings.reach, stiffness=settings.stiffness, mu=settings.mu,
             shear_n=np.zeros(mechanics.boundary.nodes.size) if shear is None else shear,
-        )
+        )  # fmt: skip
 
     def _followed(self, state: CoupledState, pairs: Pairs | None, u: FloatArray) -> Pairs | None:
         """Pairs to go on with at displacements `u`; the same object if they still hold."""
@@ -359,17 +336,13 @@ class CoupledModel:
         slip = np.where(before.status.active, before.slip, 0.0) + np.abs(forces.slip)
         T = state.heat.T[self.mechanics.candidates]
         return RoadContact(
-            status=x.status,
-            length=np.where(active, length, 0.0),
-            normal=normal,
+            status=x.status, length=np.where(active, length, 0.0), normal=normal,
             shear=np.where(active, forces.tangential, 0.0),
             pressure=np.maximum(normal, 0.0) / length,
-            slip_velocity=forces.slip / problem.load.dt,
-            remembered_velocity=remembered,
+            slip_velocity=forces.slip / problem.load.dt, remembered_velocity=remembered,
             slip=np.where(active, slip, 0.0),
-            T_before=np.where(before.status.active, before.T_before, T),
-            mu=problem.load.mu,
-        )
+            T_before=np.where(before.status.active, before.T_before, T), mu=problem.load.mu,
+        )  # fmt: skip
 
     def _coefficient(self, contact: RoadContact, heat: HeatState, position: float) -> FloatArray:
         """Friction coefficient of a contact at the temperatures and the place of a heat state."""
@@ -385,12 +358,9 @@ class CoupledModel:
         """State of the candidates, for the laws, with the temperatures of a heat state."""
         nodes = self.mechanics.candidates
         return InterfaceState(
-            T_C=heat.T[nodes],
-            T_road_C=self.heat.road_below(heat, nodes, position),
-            slip=contact.slip,
-            T_before_C=contact.T_before,
-            **known,
-        )
+            T_C=heat.T[nodes], T_road_C=self.heat.road_below(heat, nodes, position),
+            slip=contact.slip, T_before_C=contact.T_before, **known,
+        )  # fmt: skip
 
     def _accept(
         self,
@@ -409,57 +379,38 @@ class CoupledModel:
         # A node that has just opened made its heat under the pressure it had.
         pressure = np.where(contact.status.active, contact.pressure, state.contact.pressure)
         interface = self._interface(
-            contact,
-            state.heat,
-            state.position,
-            p=pressure,
-            v=contact.slip_velocity,
+            contact, state.heat, state.position, p=pressure, v=contact.slip_velocity,
             mean_pressure=state.contact.mean_pressure or self.mean_pressure,
-        )
+        )  # fmt: skip
         kappa = self.laws.partition.at(interface)
         nodes, work = self._self_friction(problem, result.evaluation)
         rubber = problem.rubber_end(result.evaluation)
         heat = self._heat(
-            state,
-            target,
-            x.u,
-            contact,
-            interface,
-            kappa * power,
+            state, target, x.u, contact, interface, kappa * power,
             surface=(nodes, work / target.dt),
             bulk=self.mechanics.bulk_power(rubber, target.dt) if self.rubber_heats else None,
-        )
+        )  # fmt: skip
         self_shear = self._self_shear(problem, result.evaluation)
         mechanics = replace(
             problem.end(x, rubber, self_shear),
             self_normal=self._self_normal(problem, result.evaluation),
         )
         after = CoupledState(
-            time=state.time + target.dt,
-            position=state.position + target.sweep,
-            mechanics=mechanics,
-            heat=heat,
-            contact=contact,
+            time=state.time + target.dt, position=state.position + target.sweep,
+            mechanics=mechanics, heat=heat, contact=contact,
             mu=self._coefficient(contact, heat, state.position + target.sweep),
-        )
+        )  # fmt: skip
         return AcceptedStep(
-            before=state,
-            after=after,
-            target=target,
-            evaluation=result.evaluation,
-            problem=problem,
-            iterations=iterations,
-            hardest_pass=hardest,
+            before=state, after=after, target=target, evaluation=result.evaluation,
+            problem=problem, iterations=iterations, hardest_pass=hardest,
             lag_error=lag_error(contact, after.mu),
-            power=power,
-            kappa=kappa,
-            capped=self.laws.partition.capped(interface),
-            self_friction=float(work.sum()),
+            power=power, kappa=kappa,
+            capped=self.laws.partition.capped(interface), self_friction=float(work.sum()),
             penetration=penetration,
             energies=self.mechanics.energies(
                 result.evaluation, mechanics.velocity, problem.past, rubber
             ),
-        )
+        )  # fmt: skip
 
     def _self_friction(
         self, problem: Problem, evaluation: StepEvaluation
@@ -499,31 +450,19 @@ class CoupledModel:
         return on_nodes[self.mechanics.boundary.nodes]
 
     def _heat(
-        self,
-        state: CoupledState,
-        target: Target,
-        u: FloatArray,
-        contact: RoadContact,
-        interface: InterfaceState,
-        power: FloatArray,
-        *,
-        surface: tuple[IntArray, FloatArray],
-        bulk: FloatArray | None,
-    ) -> HeatState:
+        self, state: CoupledState, target: Target, u: FloatArray, contact: RoadContact,
+        interface: InterfaceState, power: FloatArray, *,
+        surface: tuple[IntArray, FloatArray], bulk: FloatArray | None,
+    ) -> HeatState:  # fmt: skip
         active = contact.status.active
         opened = ~active & (power != 0.0)
         h = self.laws.conductance.at(interface)
         load = HeatLoad(
-            dt=target.dt,
-            sweep=target.sweep,
-            displacement=u,
-            contact_nodes=self.mechanics.candidates[active],
-            power=power[active],
+            dt=target.dt, sweep=target.sweep, displacement=u,
+            contact_nodes=self.mechanics.candidates[active], power=power[active],
             conductance=(W_PER_M2_K * h * contact.length)[active],
             surface_nodes=np.concatenate([self.mechanics.candidates[opened], surface[0]]),
             surface_power=np.concatenate([power[opened], surface[1]]),
-            bulk_power=bulk,
-            convection=target.convection,
-            parts=target.heat_parts,
-        )
+            bulk_power=bulk, convection=target.convection, parts=target.heat_parts,
+        )  # fmt: skip
         return self.heat.advance(state.heat, load, state.position)

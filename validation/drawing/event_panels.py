@@ -25,7 +25,6 @@ from validation.drawing.block_drawing import (
 )
 from validation.drawing.style import (
     BLUE,
-    COLUMN_WIDTH,
     GREY,
     PAGE_WIDTH,
     TEMPERATURE_MAP,
@@ -98,7 +97,7 @@ def draw_pyrometer(result: Result) -> Figure:
     table, given = result.pyrometer, result.case.pyrometer
     assert table is not None
     assert given is not None
-    figure = new_figure(COLUMN_WIDTH, 70.0)
+    figure = new_figure(120.0, 70.0)
     axes = figure.subplots()
     axes.plot(table["X_mm"], table["T_C"], color=VERMILLION, label="end of contact")
     whole = table["spot_covered"] > 1.0 - 1e-9
