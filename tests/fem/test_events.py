@@ -7,6 +7,7 @@ from scipy.special import erfcx
 from fem import Case, Result, simulate
 from fem.results.contacts import CONTACTS
 from tests.reference_solutions.conduction import train_of_pulses
+from tests.reference_solutions.conduction_columns import Contacts
 
 PRESS = {"kind": "press", "mean_pressure_N_per_mm2": 0.25, "time_s": 1e-3}
 LIFT = {"kind": "lift", "time_s": 0.02}
@@ -27,11 +28,13 @@ def event(*phases, **tables):
 
 # -- heat of a rigid block -------------------------------------------------------------------------
 
+#: Cells flat enough for the heat of milliseconds.
+FLAT = {"cells_x": 4, "cells_y": 60, "smallest_x_mm": 5.0, "smallest_y_mm": 0.006}
 #: A block that neither conducts to the road nor radiates, as the closed forms have it.
 INSULATED = {
     "block": {
         "rigid": True,
-        "mesh": {"cells_x": 4, "cells_y": 60, "smallest_x_mm": 5.0, "smallest_y_mm": 0.006},
+        "mesh": FLAT,
     },
     "friction": {"law": "coulomb", "mu": 0.9, "wlf": False},
     "heat": {
@@ -46,6 +49,11 @@ INSULATED = {
     },
 }
 EFFUSIVITY = 705.012
+#: The same block with the paper's conductance to the road, whose heat differs along it.
+CONDUCTING = INSULATED | {
+    "block": {"rigid": True, "mesh": FLAT | {"cells_x": 20, "smallest_x_mm": 1.0}},
+    "heat": INSULATED["heat"] | {"conductance_W_per_m2K": 1600.0},
+}
 
 
 def test_a_train_of_contacts_heats_a_half_space_as_the_closed_form_says():
@@ -68,7 +76,35 @@ def test_a_train_of_contacts_heats_a_half_space_as_the_closed_form_says():
     assert found[[0, 1, 2, 4, 9, 19]] == pytest.approx(
         [53.389, 59.739, 64.260, 71.170, 83.511, 100.670], rel=0.01
     )
+    before = train_of_pulses(
+        0.1357 * np.arange(1, count),
+        flux=375.3e3,
+        effusivity=EFFUSIVITY,
+        duration=7.9e-3,
+        period=0.1357,
+    )
+    np.testing.assert_allclose(result.contacts["T_before_C"][1:] - 20.0, before, rtol=0.01)
     assert result.summary["heat_error"] < 1e-12
+
+
+def test_a_half_space_cools_between_contacts_as_the_closed_form_says():
+    """At every step in the air of the third rest: from milliseconds to seconds after contact."""
+    period, on = 3.0079, 7.9e-3
+    case = event(
+        {"kind": "press", "mean_pressure_N_per_mm2": 0.3, "time_s": 1e-6},
+        slide(1390.0, time_s=on),
+        {"kind": "lift", "time_s": period - on - 1e-6},
+        loading={"repeat": 3},
+        **INSULATED,
+    )
+    history = simulate(case).history
+    air = history[(history["contact"] == 3) & (history["phase"] == 3)]
+    expected = train_of_pulses(
+        air["time_s"].to_numpy(), flux=375.3e3, effusivity=EFFUSIVITY, duration=on, period=period
+    )
+    assert air["time_s"].diff().max() > 0.2  # steps grow with the time at rest
+    late = air["time_s"] > 2.0 * period + on + 1e-3
+    np.testing.assert_allclose((air["T_max_C"] - 20.0)[late], expected[late], rtol=0.01)
 
 
 def test_convection_cools_a_half_space_as_the_closed_form_says():
@@ -122,6 +158,46 @@ def test_a_track_that_is_met_again_leaves_the_block_warmer_than_a_fresh_road():
         ends[road] = result.contacts["T_max_C"].tolist()
     assert ends["same"][0] == pytest.approx(ends["fresh"][0], abs=1e-9)
     assert ends["same"][1] > ends["fresh"][1] + 0.05
+
+
+@pytest.mark.parametrize("road", ["fresh", "same"])
+def test_contacts_with_conduction_to_the_road_match_columns(road):
+    """Three contacts of ABS braking, 0.1 s apart; a track that is met again is the warmer one."""
+    count, way, speed, pause = 3, 11.0, 1390.0, 0.1
+    case = event(
+        {"kind": "press", "mean_pressure_N_per_mm2": 0.3, "time_s": 1e-6},
+        slide(speed, distance_mm=way),
+        {"kind": "lift", "time_s": pause},
+        loading={"repeat": count, "road": road},
+        **CONDUCTING,
+    )
+    found = simulate(case).contacts
+    columns = Contacts(
+        velocity=speed,
+        distance=way,
+        length=20.0,
+        pressure=0.3,
+        friction=lambda T: np.full_like(T, 0.9),
+        kappa=1.0,
+        conductance=1.6,
+        block=(0.284, 1.207e-9 * 1.45e9),
+        road=(0.70, 2.0e-9 * 0.92e9),
+        stations=160,
+        first_cell=0.002,
+        pause=pause,
+        count=count,
+    )
+    ends = []
+    for number in range(count):
+        if number:
+            columns.in_air(pause, fresh=road == "fresh")
+        ends.append(columns.contact())
+    rise = [end.T_max_C - 20.0 for end in ends]
+    np.testing.assert_allclose(found["T_max_C"] - 20.0, rise, rtol=0.01)
+    area = [end.excess_area(20.0, 20.0) for end in ends]
+    np.testing.assert_allclose(found["A_T_K_mm"], area, rtol=0.01)
+    # Without conduction to the road it would be 53.4 K after the first contact.
+    assert rise[0] < 47.0
 
 
 # -- a deformable block ----------------------------------------------------------------------------

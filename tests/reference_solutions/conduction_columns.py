@@ -106,27 +106,93 @@ def sliding_columns(
     stations : int
         Columns along the block; the time step is length / stations / velocity.
     """
-    dt = length / stations / velocity
-    steps = round(distance / velocity / dt)
-    reach = 6.0 * np.sqrt(np.array([block[0] / block[1], road[0] / road[1]]) * steps * dt)
-    rubber = Column(*block, graded_cells(first_cell, ratio, reach[0]), dt)
-    asphalt = Column(*road, graded_cells(first_cell, ratio, reach[1]), dt)
-    T_b = np.zeros((len(rubber.response), stations))
-    T_r = np.zeros((len(asphalt.response), stations))
-    surface = np.zeros(stations)
-    for _ in range(steps):
-        # the block moves one station on: new road at the leading edge (station 0)
-        T_r = np.roll(T_r, 1, axis=1)
-        T_r[:, 0] = 0.0
-        heat = kappa * friction(T_0_C + surface) * pressure * velocity
-        T_b, T_r = rubber.step(T_b), asphalt.step(T_r)
-        block_rise = rubber.response[0] + rubber.half_cell
-        road_rise = asphalt.response[0] + asphalt.half_cell
-        # surface block = T_b + block_rise (heat - q), surface road = T_r + road_rise q
-        gap = T_b[0] + block_rise * heat - T_r[0]
-        q = gap / (1.0 / conductance + block_rise + road_rise)
-        surface = T_b[0] + block_rise * (heat - q)
-        T_b = T_b + rubber.response[:, None] * (heat - q)
-        T_r = T_r + asphalt.response[:, None] * q
-    s = (np.arange(stations) + 0.5) * length / stations
-    return ColumnsResult(s_mm=s, T_C=T_0_C + surface)
+    sliding = Contacts(
+        velocity=velocity,
+        distance=distance,
+        length=length,
+        pressure=pressure,
+        friction=friction,
+        kappa=kappa,
+        conductance=conductance,
+        block=block,
+        road=road,
+        T_0_C=T_0_C,
+        stations=stations,
+        first_cell=first_cell,
+        ratio=ratio,
+    )
+    return sliding.contact()
+
+
+class Contacts:
+    """Block columns over road columns in one contact after another; see `sliding_columns`.
+
+    `pause` is the longest time in air [s].
+    """
+
+    def __init__(
+        self,
+        *,
+        velocity,
+        distance,
+        length,
+        pressure,
+        friction,
+        kappa,
+        conductance,
+        block,
+        road,
+        T_0_C=20.0,
+        stations=80,
+        first_cell=0.01,
+        ratio=1.12,
+        pause=0.0,
+        count=1,
+    ):
+        self.velocity, self.length, self.stations, self.T_0_C = velocity, length, stations, T_0_C
+        self.load = kappa * pressure * velocity
+        self.friction, self.conductance = friction, conductance
+        self.dt = length / stations / velocity
+        self.steps = round(distance / velocity / self.dt)
+        self.sides = (block, road)
+        duration = count * (self.steps * self.dt + pause)
+        reach = 6.0 * np.sqrt(np.array([block[0] / block[1], road[0] / road[1]]) * duration)
+        self.cells = [graded_cells(first_cell, ratio, depth) for depth in reach]
+        self.columns = self._columns(self.dt)
+        # The road columns of the whole track, the first ones below the rear of the block at first.
+        self.T_b = np.zeros((len(self.cells[0]), stations))
+        self.T_r = np.zeros((len(self.cells[1]), stations + self.steps))
+
+    def _columns(self, dt):
+        return [
+            Column(*side, cells, dt) for side, cells in zip(self.sides, self.cells, strict=True)
+        ]
+
+    def contact(self):
+        """Slide once over the track from its start on."""
+        rubber, asphalt = self.columns
+        surface = self.T_b[0].copy()
+        for step in range(self.steps):
+            # The block moves one station on; station 0 is the leading one.
+            below = np.arange(self.stations + step, step, -1)
+            heat = self.load * self.friction(self.T_0_C + surface)
+            self.T_b, self.T_r = rubber.step(self.T_b), asphalt.step(self.T_r)
+            block_rise = rubber.response[0] + rubber.half_cell
+            road_rise = asphalt.response[0] + asphalt.half_cell
+            # surface block = T_b + block_rise (heat - q), surface road = T_r + road_rise q
+            gap = self.T_b[0] + block_rise * heat - self.T_r[0, below]
+            q = gap / (1.0 / self.conductance + block_rise + road_rise)
+            surface = self.T_b[0] + block_rise * (heat - q)
+            self.T_b += rubber.response[:, None] * (heat - q)
+            self.T_r[:, below] += asphalt.response[:, None] * q
+        s = (np.arange(self.stations) + 0.5) * self.length / self.stations
+        return ColumnsResult(s_mm=s, T_C=self.T_0_C + surface)
+
+    def in_air(self, duration, *, fresh, steps=400):
+        """Let block and road conduct on their own, insulated; a fresh road is cold after it."""
+        times = duration * np.linspace(0.0, 1.0, steps + 1) ** 2
+        for dt in np.diff(times):
+            rubber, asphalt = self._columns(dt)
+            self.T_b, self.T_r = rubber.step(self.T_b), asphalt.step(self.T_r)
+        if fresh:
+            self.T_r[:] = 0.0
