@@ -31,8 +31,8 @@ from fem.files import (
     version_of,
     warn,
 )
-from fem.results.output_folder import check_output_file, chosen_output, output_folder
-from validation.commands import add_arguments as add_paper_commands
+from fem.results import check_output_file, chosen_output, output_folder
+from validation import add_arguments as add_paper_commands
 from validation.drawing import draw_missing
 
 if TYPE_CHECKING:
@@ -359,8 +359,8 @@ def _add_compare(commands: Any) -> None:
 
 
 def _compare(arguments: argparse.Namespace) -> int:
-    from calibration.data.errors import DataError
-    from validation.measured.compare_command import write_comparison
+    from calibration.data import DataError
+    from validation.measured import write_comparison
 
     directory = chosen_output(arguments.output, Path("results/comparison"))
     try:
@@ -429,7 +429,7 @@ def _template(arguments: argparse.Namespace) -> int:
 
 def _add_calibrate(commands: Any, *, wanted: bool) -> None:
     if wanted:
-        from calibration.commands import add_arguments
+        from calibration import add_arguments
 
         add_arguments(commands)
     else:
@@ -457,7 +457,7 @@ def _add_export(commands: Any) -> None:
 
 
 def _export(arguments: argparse.Namespace) -> int:
-    from validation.calculix.export_deck import friction_remark, write_deck
+    from validation.calculix import friction_remark, write_deck
 
     case = _load(arguments)
     path = chosen_output(arguments.output, Path(f"{Path(arguments.case).stem}.inp"))

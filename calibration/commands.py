@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
-from calibration.conductance.fit import ALSO
-from calibration.data.errors import DataError
-from calibration.fitting.progress import watched
-from calibration.friction.curves import forms
+from calibration.conductance import ALSO
+from calibration.data import DataError
+from calibration.fitting import watched
+from calibration.friction import forms
 from calibration.outcomes import (
     PARAMETERS_FILE,
     Outcome,
@@ -22,16 +22,12 @@ from calibration.outcomes import (
     calibrate_viscoelastic,
     calibrate_wlf,
 )
-from calibration.partition.fit import MOST_SIMULATIONS
-from calibration.partition.simulation_store import SIMULATIONS_FOLDER, SimulationStoppedError
-from calibration.rubber.stress_models import STRESS_MODELS
-from calibration.rubber.stress_zero import Zero
-from calibration.shifting.master_curve import Vertical
-from fem.case.case import Case
-from fem.case.errors import CaseError, describe
-from fem.case.reading import parse_override
-from fem.files.messages import BAD_INPUT, DONE, NOT_CONVERGED, say_of
-from fem.results.output_folder import chosen_output, output_folder
+from calibration.partition import MOST_SIMULATIONS, SIMULATIONS_FOLDER, SimulationStoppedError
+from calibration.rubber import STRESS_MODELS, Zero
+from calibration.shifting import Vertical
+from fem.case import Case, CaseError, describe, parse_override
+from fem.files import BAD_INPUT, DONE, NOT_CONVERGED, say_of
+from fem.results import chosen_output, output_folder
 from materials.hyperelastic import MODES
 from materials.units import ABSOLUTE_ZERO_C
 from materials.wlf import WLF

@@ -12,20 +12,26 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from calibration.conductance.fit import conductance_constant, fit_conductance, read_heating_record
-from calibration.conductance.heating_rig import HeatingRig
-from calibration.conductance.rig_file import read_contact_surface, read_heating_rig
+from calibration.conductance import (
+    HeatingRig,
+    conductance_constant,
+    fit_conductance,
+    read_contact_surface,
+    read_heating_record,
+    read_heating_rig,
+)
+from calibration.fitting import FitResult, parameter_text
 from calibration.fitting import progress as fit_progress
-from calibration.fitting.core import FitResult
-from calibration.fitting.parameter_file import parameter_text
-from calibration.friction.data import read_friction
-from calibration.friction.fit import compare_laws, fit_friction
-from calibration.memory.fit import fit_viscoelastic, read_memory
-from calibration.memory.histories import Histories, read_histories
-from calibration.memory.mullins import fit_mullins
-from calibration.memory.sweeps import Moduli
-from calibration.partition.fit import PartitionFit, fit_partition
-from calibration.partition.simulation_store import SIMULATIONS_FOLDER, SimulationStore
+from calibration.friction import compare_laws, fit_friction, read_friction
+from calibration.memory import (
+    Histories,
+    Moduli,
+    fit_mullins,
+    fit_viscoelastic,
+    read_histories,
+    read_memory,
+)
+from calibration.partition import SIMULATIONS_FOLDER, PartitionFit, SimulationStore, fit_partition
 from calibration.plots import (
     plot_comparison,
     plot_conductance,
@@ -38,12 +44,10 @@ from calibration.plots import (
     plot_wlf,
     png,
 )
-from calibration.rubber.hyperelastic import CHOICES, compare_models, fit_hyperelastic
-from calibration.rubber.stress_data import select_data
+from calibration.rubber import CHOICES, compare_models, fit_hyperelastic, select_data
 from calibration.wlf import fit_wlf, read_shift_factors
-from fem.case.case import Case
-from fem.files import spreadsheet
-from fem.files.atomic import staged_directory
+from fem.case import Case
+from fem.files import spreadsheet, staged_directory
 
 PARAMETERS_FILE = "parameters.toml"
 

@@ -12,9 +12,9 @@ from pathlib import Path
 import pandas as pd
 
 from calibration.datasets import DATASETS, dataset_path
-from calibration.fitting.core import FitResult
-from calibration.friction.fit import fit_friction
-from calibration.rubber.hyperelastic import compare_models, fit_hyperelastic
+from calibration.fitting import FitResult
+from calibration.friction import fit_friction
+from calibration.rubber import compare_models, fit_hyperelastic
 from calibration.synthetic import (
     FRICTION_NOISE,
     STRESS_NOISE_N_PER_MM2,

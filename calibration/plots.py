@@ -9,13 +9,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from calibration.conductance.fit import HeatingRecord
-from calibration.fitting.core import FitResult
-from calibration.friction.data import FrictionData
-from calibration.memory.histories import Histories
-from calibration.memory.sweeps import Moduli
-from calibration.rubber.stress_data import StressData
-from calibration.shifting.master_curve import MasterCurve
+from calibration.conductance import HeatingRecord
+from calibration.fitting import FitResult
+from calibration.friction import FrictionData
+from calibration.memory import Histories, Moduli
+from calibration.rubber import StressData
+from calibration.shifting import MasterCurve
 from materials.arrays import FloatArray
 
 # Okabe and Ito's colours, which readers with any colour vision can tell apart

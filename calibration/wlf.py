@@ -14,12 +14,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.errors import DataError
-from calibration.data.row_account import LeftOut, left_out
-from calibration.data.tables import Table, read_table
-from calibration.fitting.core import FitResult, Problem, fit
-from calibration.shifting.frequency_sweeps import is_sweep_table
-from calibration.shifting.master_curve import MasterCurve, shift_sweeps
+from calibration.data import DataError, LeftOut, Table, left_out, read_table
+from calibration.fitting import FitResult, Problem, fit
+from calibration.shifting import MasterCurve, is_sweep_table, shift_sweeps
 from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.wlf import WLF

@@ -9,11 +9,11 @@ Examples
 
 from typing import TYPE_CHECKING
 
-from fem.files.faces import face
+from fem.files import face
 
 if TYPE_CHECKING:
-    from fem.case.case import Case
-    from fem.results.result import Result
+    from fem.case import Case
+    from fem.results import Result
     from fem.simulation import simulate
 else:
     __getattr__ = face(__name__, __file__)

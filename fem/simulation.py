@@ -9,34 +9,40 @@ import numpy as np
 import pandas as pd
 
 from fem import newton
-from fem.case.case import Case
-from fem.files.program_version import program_version
-from fem.heat.model import HeatModel
-from fem.mechanics.elements import Q1P0Elements
-from fem.mechanics.regularisation import snap_damping
-from fem.mechanics.rigid import RigidMechanics
-from fem.mechanics.step import BlockMechanics
-from fem.mesh.block import BlockMesh
-from fem.results.checkpoint import Checkpoint, notes
-from fem.results.fitted_window import window_notes, window_warnings
-from fem.results.outcome import Outcome
-from fem.results.result import Result
-from fem.results.sliding_regime import sliding_regime
-from fem.results.snapshot import BlockGeometry
-from fem.results.trust import judged
-from fem.solvers.kept_factors import linear_solver
-from fem.stepping.coupled_step import ContactLaws, CoupledModel, CoupledState, SelfContact
-from fem.stepping.model_parts import Progress, mesh_of, sized
-from fem.stepping.per_block import block_summaries
-from fem.stepping.point import RunRecord
-from fem.stepping.run import Run
-from fem.stepping.summary import (
+from fem.case import Case
+from fem.files import program_version
+from fem.heat import HeatModel
+from fem.mechanics import BlockMechanics, Q1P0Elements, RigidMechanics, snap_damping
+from fem.mesh import BlockMesh
+from fem.results import (
+    BlockGeometry,
+    Checkpoint,
+    Outcome,
+    Result,
+    judged,
+    notes,
+    sliding_regime,
+    window_notes,
+    window_warnings,
+)
+from fem.solvers import linear_solver
+from fem.stepping import (
+    ContactLaws,
+    CoupledModel,
+    CoupledState,
+    Progress,
+    Run,
+    RunRecord,
+    SelfContact,
+    block_summaries,
     closing_lines,
     heat_error,
     lag_share,
     largest,
     last_values,
     layer_errors,
+    mesh_of,
+    sized,
     sliding_means,
     steady_shares,
 )

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from fem.case.case import Case
-from fem.files.program_version import program_version
+from fem.files.version import program_version
 from fem.mesh.block import BlockMesh, block_mesh
 from fem.mesh.grading import Grading
 from fem.results.bottom_history import BottomHistory

@@ -13,7 +13,7 @@ from typing import Any
 
 from fem.case import CaseError
 from fem.files import BAD_INPUT, DONE, NOT_CONVERGED, say_of
-from fem.results.output_folder import check_output_file, chosen_output, output_folder
+from fem.results import check_output_file, chosen_output, output_folder
 
 #: Figures and tables share a folder, since some are made of the same runs.
 _PAPER = "results/figures"
@@ -71,9 +71,9 @@ def _add_folder(parser: argparse.ArgumentParser, what: str) -> None:
 
 
 def _figure(arguments: argparse.Namespace) -> int:
-    from calibration.data.errors import DataError
-    from validation.measured.measurements import read_measurements
-    from validation.paper.figures import FIGURES, MEASURABLE, make_figure
+    from calibration.data import DataError
+    from validation.measured import read_measurements
+    from validation.paper import FIGURES, MEASURABLE, make_figure
 
     numbers = _numbers("figure", arguments, list(FIGURES))
     measured, inputs = None, []
@@ -102,7 +102,7 @@ def _figure(arguments: argparse.Namespace) -> int:
 
 
 def _table(arguments: argparse.Namespace) -> int:
-    from validation.paper.tables import TABLES, make_table
+    from validation.paper import TABLES, make_table
 
     for number in _numbers("table", arguments, list(TABLES)):
         make = partial(make_table, number, arguments.output)
@@ -144,7 +144,7 @@ def _made(
 ) -> bool:
     """Make something unless it is up to date, and say so; False if one of its runs failed."""
     from fem.sweeps import StudyError
-    from validation.paper.kept import kept
+    from validation.paper import kept
 
     directory = Path(arguments.output)
     try:
@@ -178,7 +178,7 @@ def _add_report(commands: Any) -> None:
 
 
 def _report(arguments: argparse.Namespace) -> int:
-    from validation.report.page import write_report
+    from validation.report import write_report
 
     figures = Path(arguments.figures)
     path = chosen_output(arguments.output, Path("results/report.html"))

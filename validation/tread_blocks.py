@@ -18,13 +18,16 @@ from matplotlib.figure import Figure
 from fem import Case
 from fem.files import write_table
 from fem.results import Result
-from validation.drawing.field_panels import (
+from validation.drawing import (
+    PAGE_WIDTH,
     BlockState,
     colour_bar,
     draw_panel,
+    new_figure,
+    save,
     stress_panel,
+    styled,
 )
-from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
 
 #: Columns of the table, from the summaries of the runs.
 COLUMNS = (

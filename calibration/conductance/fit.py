@@ -19,8 +19,8 @@ import numpy as np
 import pandas as pd
 
 from calibration.conductance.heating_rig import Heater, HeatingRig, RigModel
-from calibration.data.tables import Table, read_table
-from calibration.fitting.core import FitResult, Loss, Problem, fit
+from calibration.data import Table, read_table
+from calibration.fitting import FitResult, Loss, Problem, fit
 from contact.conductance import ContactSurface, GapConductance, mikic_constant
 from fem.files import version_of
 from materials.arrays import FloatArray

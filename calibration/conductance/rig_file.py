@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from calibration.conductance.heating_rig import HeatingRig, Thermocouple
-from calibration.data.errors import DataError
+from calibration.data import DataError
 from contact.conductance import ContactSurface
 from fem.case import CaseError, describe, read_toml
 from materials.plausible import (

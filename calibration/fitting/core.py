@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from scipy import optimize, stats
 
-from calibration.data.errors import DataError
-from calibration.fitting.minimise import minimise
+from calibration.data import DataError
+from calibration.fitting.minimum import minimise
 from calibration.fitting.parameter_file import write_parameter_file
 from calibration.fitting.problem import Loss, Problem
 from calibration.fitting.uncertainty import correlation_of, uncertainty

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from calibration.fitting.minimise import least_squares_solution, thinned
+from calibration.fitting.minimum import least_squares_solution, thinned
 from calibration.fitting.problem import Problem
 from materials.arrays import FloatArray
 

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.tables import Table, read_table
+from calibration.data import Table, read_table
 from materials.arrays import FloatArray
 
 COLUMNS = ("p_N_per_mm2", "v_mm_per_s", "mu")

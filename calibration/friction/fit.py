@@ -14,9 +14,8 @@ from typing import Any, Literal
 import numpy as np
 import pandas as pd
 
-from calibration.data.errors import DataError
-from calibration.fitting.core import FitResult, Loss, Problem, fit, refuse_no_fit
-from calibration.fitting.progress import stage
+from calibration.data import DataError
+from calibration.fitting import FitResult, Loss, Problem, fit, refuse_no_fit, stage
 from calibration.friction.curves import HUEMER_SCALE, FrictionCurve, forms
 from calibration.friction.data import FrictionData, read_friction
 from contact.friction import FrictionLaw, shifted

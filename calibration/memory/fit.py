@@ -6,13 +6,12 @@ from typing import Any
 
 import pandas as pd
 
-from calibration.data.tables import read_table
-from calibration.fitting.core import FitResult, Loss
+from calibration.data import read_table
+from calibration.fitting import FitResult, Loss
 from calibration.memory.histories import Histories, read_histories
 from calibration.memory.sweeps import Moduli, fit_sweeps, read_moduli
 from calibration.memory.viscoelastic import Weighting, fit_histories
-from calibration.shifting.frequency_sweeps import is_sweep_table
-from calibration.shifting.master_curve import Vertical
+from calibration.shifting import Vertical, is_sweep_table
 from materials.hyperelastic_base import Mode
 from materials.wlf import WLF
 

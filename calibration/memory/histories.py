@@ -10,11 +10,16 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from calibration.data.row_account import left_out
-from calibration.data.tables import Table
+from calibration.data import Table, left_out
 from calibration.memory.spectrum import log_grid
-from calibration.rubber.stress_checks import STRESS, check_points, check_sign, check_zero
-from calibration.rubber.stress_data import StressData, read_stress_table
+from calibration.rubber import (
+    STRESS,
+    StressData,
+    check_points,
+    check_sign,
+    check_zero,
+    read_stress_table,
+)
 from materials import plausible as quantities
 from materials.arrays import FloatArray
 from materials.homogeneous import branch_histories, reduced_steps

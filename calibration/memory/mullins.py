@@ -8,15 +8,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.errors import DataError
-from calibration.fitting.core import FitResult, Loss, Problem, fit
-from calibration.fitting.minimise import minimise
-from calibration.fitting.progress import stage
-from calibration.fitting.stability import check_stability
+from calibration.data import DataError
+from calibration.fitting import FitResult, Loss, Problem, check_stability, fit, minimise, stage
 from calibration.memory.histories import Histories, read_histories
-from calibration.rubber.stress_checks import check_modulus, fitted_energy
-from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
-from fem.files.program_version import version_of
+from calibration.rubber import STRESS_MODELS, Kinematics, StressModel, check_modulus, fitted_energy
+from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.hyperelastic_base import Mode
 from materials.rubber import Rubber

@@ -24,9 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from calibration.fitting.minimise import minimise
-from calibration.fitting.problem import Problem
-from calibration.fitting.progress import stage
+from calibration.fitting import Problem, minimise, stage
 from materials.arrays import FloatArray
 
 NODES_PER_DECADE = 12

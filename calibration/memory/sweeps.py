@@ -9,11 +9,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.errors import DataError
-from calibration.data.tables import Table, read_table
-from calibration.fitting.core import FitResult, Loss, fit, refuse_no_fit
-from calibration.fitting.minimise import minimise
-from calibration.fitting.problem import Problem
+from calibration.data import DataError, Table, read_table
+from calibration.fitting import FitResult, Loss, Problem, fit, minimise, refuse_no_fit
 from calibration.memory.spectrum import Candidate, MemoryCurve, candidates, memory_problem
 from calibration.memory.viscoelastic import (
     chosen,
@@ -22,10 +19,9 @@ from calibration.memory.viscoelastic import (
     spectrum_of,
     viscoelastic_keys,
 )
-from calibration.shifting.frequency_sweeps import LOSS, MODULUS, TAN_DELTA, one_sweep
-from calibration.shifting.master_curve import MasterCurve, shift_sweeps
+from calibration.shifting import LOSS, MODULUS, TAN_DELTA, MasterCurve, one_sweep, shift_sweeps
 from calibration.wlf import fit_wlf
-from fem.files.program_version import version_of
+from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.prony import Prony
 from materials.wlf import WLF

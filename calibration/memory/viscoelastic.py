@@ -9,10 +9,8 @@ from typing import Any, Literal
 import numpy as np
 import pandas as pd
 
-from calibration.data.errors import DataError
-from calibration.fitting.core import FitResult, Loss, fit
-from calibration.fitting.progress import stage
-from calibration.fitting.stability import check_stability
+from calibration.data import DataError
+from calibration.fitting import FitResult, Loss, check_stability, fit, stage
 from calibration.memory.histories import Histories, branch_responses, read_histories, time_range
 from calibration.memory.spectrum import (
     Candidate,
@@ -22,9 +20,8 @@ from calibration.memory.spectrum import (
     fewest,
     memory_problem,
 )
-from calibration.rubber.stress_checks import check_modulus, fitted_energy
-from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
-from fem.files.program_version import version_of
+from calibration.rubber import STRESS_MODELS, Kinematics, StressModel, check_modulus, fitted_energy
+from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.hyperelastic_base import Mode
 from materials.prony import Prony

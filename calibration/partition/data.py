@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.tables import Table, read_table
+from calibration.data import Table, read_table
 from fem.case import Case, CaseError
 from fem.results import EDGE_ZONE, interior_peak
 from materials.arrays import FloatArray

@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from calibration.fitting.core import FitResult, Problem, fit
+from calibration.fitting import FitResult, Problem, fit
 from calibration.partition.data import Condition, PartitionData, ProfileUse, read_partition_data
 from calibration.partition.simulation_store import SimulationStore
 from calibration.partition.slides import (
@@ -44,7 +44,7 @@ from calibration.partition.slides import (
 )
 from contact.partition import HeatPartition
 from fem.case import Case, CaseError
-from fem.files.program_version import program_version, version_of
+from fem.files import program_version, version_of
 from materials.arrays import FloatArray
 
 NAMES = ("prefactor", "exponent")

@@ -15,10 +15,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.errors import DataError
-from calibration.fitting.core import FitResult, Loss, Problem, fit
-from calibration.fitting.progress import stage
-from calibration.fitting.stability import Stability, check_stability
+from calibration.data import DataError
+from calibration.fitting import FitResult, Loss, Problem, Stability, check_stability, fit, stage
 from calibration.rubber.cycles import Branch
 from calibration.rubber.stress_checks import check_modulus, fitted_energy
 from calibration.rubber.stress_data import Cycle, StressData, select_data

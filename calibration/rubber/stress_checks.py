@@ -4,9 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
-from calibration.data.errors import DataError
-from calibration.data.tables import Table
-from calibration.fitting.core import FitResult, refuse_no_fit
+from calibration.data import DataError, Table
+from calibration.fitting import FitResult, refuse_no_fit
 from calibration.rubber.stress_models import Kinematics, StressModel
 from materials.arrays import FloatArray
 from materials.hyperelastic_base import Hyperelastic

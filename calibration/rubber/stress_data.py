@@ -9,8 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.row_account import LeftOut, left_out
-from calibration.data.tables import Table, read_table
+from calibration.data import LeftOut, Table, left_out, read_table
 from calibration.rubber.cycles import (
     BRANCHES,
     Branch,

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from calibration.data.tables import Table
+from calibration.data import Table
 from materials.arrays import FloatArray
 
 Zero = Literal["none", "first", "loop"]

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.tables import Table, read_table
+from calibration.data import Table, read_table
 
 Array = NDArray[np.float64]
 

@@ -19,7 +19,7 @@ import pandas as pd
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import minimize_scalar
 
-from calibration.data.tables import Table
+from calibration.data import Table
 from calibration.shifting.frequency_sweeps import (
     FREQUENCY,
     LOSS,

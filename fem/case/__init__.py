@@ -2,15 +2,16 @@
 
 from typing import TYPE_CHECKING
 
-from fem.files.faces import face
+from fem.files import face
 
 if TYPE_CHECKING:
-    from fem.case.block import MeshSpec
+    from fem.case.block import LARGEST_MESH, Block, MeshSpec, Sipe
     from fem.case.case import Case, Solver
     from fem.case.errors import CaseError, describe, suggestion
     from fem.case.reading import parse_override, read_toml
     from fem.case.rubber import CONSTANTS, DEFAULT_COMPOUND
     from fem.case.sections import MOST_PASSES
+    from fem.case.signals import Signal
     from fem.case.template import case_template, study_template
     from fem.case.window import ContactWindow
 else:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fem.files.machine_faults import OUT_OF_MEMORY, cause, one_line
     from fem.files.messages import BAD_INPUT, DONE, INTERRUPTED, NOT_CONVERGED, WARNED, say_of, warn
     from fem.files.packing import PackingError, pack, unpack
-    from fem.files.program_version import version_of
     from fem.files.terminal import lenient_streams, open_standard_descriptors
+    from fem.files.version import ROOT, fingerprint, program_version, version_of
 else:
     __getattr__ = face(__name__, __file__)

@@ -26,13 +26,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.case.case import Case
+from fem.case import Case
 from fem.heat.block import BlockConduction, Factorisation, relative_change
 from fem.heat.exchange import Passage, passage, solve_exchange
 from fem.heat.radiation import radiated_flux, radiating_length
 from fem.heat.road import RoadConduction, RoadGrid, RoadState
 from fem.heat.state import HeatLoad, HeatState, RoadField
-from fem.mesh.block import BlockMesh
+from fem.mesh import BlockMesh
 from materials.arrays import FloatArray, IntArray
 from materials.thermal import ThermalProperties
 

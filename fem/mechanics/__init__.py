@@ -2,12 +2,13 @@
 
 from typing import TYPE_CHECKING
 
-from fem.files.faces import face
+from fem.files import face
 
 if TYPE_CHECKING:
+    from fem.mechanics.account import StepEnergies, Strains
     from fem.mechanics.elements import Past, Q1P0Elements
-    from fem.mechanics.regularisation import SnapDamping
-    from fem.mechanics.rigid import RigidMechanics
+    from fem.mechanics.regularisation import SnapDamping, damping_lines, snap_damping
+    from fem.mechanics.rigid import RigidMechanics, RigidProblem
     from fem.mechanics.state import MechanicalState
     from fem.mechanics.step import (
         BlockMechanics,

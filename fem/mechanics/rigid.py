@@ -19,8 +19,8 @@ from fem.mechanics.account import CellFields, StepEnergies, Strains
 from fem.mechanics.elements import NO_PAST, Past
 from fem.mechanics.state import MechanicalState
 from fem.mechanics.step import Iterate, StepEvaluation, StepLoad
-from fem.mesh.block import BlockMesh
-from fem.solvers.direct import LinearSolver, SuperLUSolver
+from fem.mesh import BlockMesh
+from fem.solvers import LinearSolver, SuperLUSolver
 from materials.arrays import BoolArray, FloatArray
 from materials.material import StepEnd
 

@@ -31,10 +31,8 @@ from contact.self_contact import (
 from fem.mechanics.account import CellFields, StepEnergies, Strains
 from fem.mechanics.elements import ElementForces, Past, Q1P0Elements, Viscosity, tangent_entries
 from fem.mechanics.state import MechanicalState
-from fem.mesh.block import BlockMesh
-from fem.solvers.direct import LinearSolver, SuperLUSolver
-from fem.solvers.ordering import nested_dissection
-from fem.solvers.sparse_pattern import SparsePattern, summed
+from fem.mesh import BlockMesh
+from fem.solvers import LinearSolver, SparsePattern, SuperLUSolver, nested_dissection, summed
 from materials.arrays import FloatArray, IntArray
 from materials.material import MaterialStep, StepEnd
 

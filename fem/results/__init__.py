@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from fem.files.faces import face
+from fem.files import face
 
 if TYPE_CHECKING:
     from fem.results.bottom_history import BOTTOM_FILE, BottomHistory
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
         window_warnings,
     )
     from fem.results.outcome import INTERRUPTED, OK, Outcome, failed, stoppable
-    from fem.results.pyrometer import PYROMETER, PYROMETER_FILE
+    from fem.results.output import check_output_file, chosen_output, output_folder
+    from fem.results.pyrometer import PYROMETER, PYROMETER_FILE, pyrometer_table
+    from fem.results.regime import sliding_regime
     from fem.results.result import (
         CASE_FILE,
         FIGURES_FOLDER,
@@ -31,7 +33,6 @@ if TYPE_CHECKING:
         read_table,
     )
     from fem.results.run_folder import FINAL, RunFolder
-    from fem.results.sliding_regime import STEADY
     from fem.results.snapshot import BlockGeometry, Snapshot
     from fem.results.surface_profile import EDGE_ZONE, excess_area, interior_peak
     from fem.results.trust import judged

@@ -16,8 +16,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from fem.case import Case, CaseError, describe
-from fem.files import PackingError, cause, pack, replacing, unpack
-from fem.files.program_version import program_version
+from fem.files import PackingError, cause, pack, program_version, replacing, unpack
 from materials.arrays import AnyArray
 
 T = TypeVar("T")

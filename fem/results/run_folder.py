@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from fem.case import Case, CaseError, describe
-from fem.files import staged_directory
-from fem.files.program_version import program_version
+from fem.files import program_version, staged_directory
 from fem.results.checkpoint import (
     CHECKPOINT_FILE,
     CheckpointError,

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from fem.files.faces import face
+from fem.files import face
 
 if TYPE_CHECKING:
     from fem.solvers.direct import SYMMETRIC, LinearSolver, SuperLUSolver

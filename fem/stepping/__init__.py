@@ -2,25 +2,21 @@
 
 from typing import TYPE_CHECKING
 
-from fem.files.faces import face
+from fem.files import face
 
 if TYPE_CHECKING:
-    from fem.stepping.audit import EnergyAudit, audited
     from fem.stepping.cost import duration, estimated_cost, refuse_unaffordable
     from fem.stepping.coupled_step import (
-        AcceptedStep,
         ContactLaws,
         CoupledModel,
         CoupledState,
-        RejectedStep,
         SelfContact,
     )
     from fem.stepping.model_parts import Progress, mesh_described, mesh_of, sized
-    from fem.stepping.point import Records, RunPoint, RunRecord, columns
+    from fem.stepping.per_block import block_summaries
+    from fem.stepping.point import RunRecord
     from fem.stepping.progress import RunProgress
-    from fem.stepping.relaxation import RELAXED_ONSET, relaxed
     from fem.stepping.run import Run
-    from fem.stepping.step_control import StepController, StepPlan, landed
     from fem.stepping.summary import (
         closing_lines,
         heat_error,

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem.mechanics.step import platen_displacement
-from fem.mesh.block import BlockMesh
+from fem.mechanics import platen_displacement
+from fem.mesh import BlockMesh
 from fem.stepping.balance import balance_error, share
 from fem.stepping.coupled_step import AcceptedStep
 from fem.stepping.moment import Moment

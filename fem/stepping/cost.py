@@ -8,10 +8,8 @@ and to refuse what would never end or never fit.
 import os
 from dataclasses import dataclass
 
-from fem.case.block import MeshSpec
-from fem.case.case import Case
-from fem.case.errors import CaseError
-from fem.mesh.grading import NAMED_GRADINGS
+from fem.case import Case, CaseError, MeshSpec
+from fem.mesh import NAMED_GRADINGS
 
 #: Elements of the mesh that the factors were measured with.
 _REFERENCE = 2880

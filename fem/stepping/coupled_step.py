@@ -27,14 +27,20 @@ from contact.self_contact import (
     pair_penetration,
 )
 from fem import newton
-from fem.case.sections import MOST_PASSES
-from fem.heat.model import HeatModel
-from fem.heat.state import HeatLoad, HeatState
-from fem.mechanics.account import StepEnergies
-from fem.mechanics.regularisation import SnapDamping
-from fem.mechanics.rigid import RigidMechanics, RigidProblem
-from fem.mechanics.state import MechanicalState
-from fem.mechanics.step import BlockMechanics, Iterate, StepEvaluation, StepLoad, StepProblem
+from fem.case import MOST_PASSES
+from fem.heat import HeatLoad, HeatModel, HeatState
+from fem.mechanics import (
+    BlockMechanics,
+    Iterate,
+    MechanicalState,
+    RigidMechanics,
+    RigidProblem,
+    SnapDamping,
+    StepEnergies,
+    StepEvaluation,
+    StepLoad,
+    StepProblem,
+)
 from fem.stepping.phases import Target
 from fem.stepping.road_contact import RoadContact, friction_power, lag_error
 from materials.arrays import FloatArray, IntArray

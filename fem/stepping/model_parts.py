@@ -5,13 +5,20 @@ from pathlib import Path
 
 import numpy as np
 
-from fem.case.block import LARGEST_MESH, Block, Sipe
-from fem.case.case import Case
-from fem.case.errors import CaseError
-from fem.mesh.block import BlockMesh, block_mesh
-from fem.mesh.file import MeshFileError, read_mesh
-from fem.mesh.grading import NAMED_GRADINGS, Grading
-from fem.mesh.tread import Slot, TreadShape, quality, shape_of_blocks, tread_mesh
+from fem.case import LARGEST_MESH, Block, Case, CaseError, Sipe
+from fem.mesh import (
+    NAMED_GRADINGS,
+    BlockMesh,
+    Grading,
+    MeshFileError,
+    Slot,
+    TreadShape,
+    block_mesh,
+    quality,
+    read_mesh,
+    shape_of_blocks,
+    tread_mesh,
+)
 
 
 @dataclass(frozen=True, kw_only=True)

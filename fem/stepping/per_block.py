@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fem.mesh.block import BlockMesh
-from fem.results.surface_profile import excess_area, interior_peak
+from fem.mesh import BlockMesh
+from fem.results import excess_area, interior_peak
 from fem.stepping.coupled_step import RoadContact
 from fem.stepping.summary import last_values, sliding_means
 from materials.arrays import FloatArray

@@ -7,9 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from fem.case import loading
-from fem.case.case import Case
-from fem.case.signals import Signal
+from fem.case import Case, Signal, loading
 from fem.stepping.phases import (
     LONGEST_PART,
     SHORTEST_PART,

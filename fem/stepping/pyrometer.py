@@ -15,9 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem.heat.model import HeatModel
-from fem.heat.state import HeatLoad, HeatState
-from fem.mesh.block import BlockMesh
+from fem.heat import HeatLoad, HeatModel, HeatState
+from fem.mesh import BlockMesh
 from fem.stepping.phases import Rest, resting_steps
 from materials.arrays import FloatArray
 

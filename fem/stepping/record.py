@@ -8,7 +8,7 @@ from math import inf
 
 import numpy as np
 
-from fem.case.signals import Signal
+from fem.case import Signal
 from fem.stepping.phases import PRESSING_MOTION, Steps, Target
 from materials.arrays import FloatArray
 

@@ -11,19 +11,20 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from fem.case.case import Case
-from fem.mechanics.regularisation import damping_lines
-from fem.results.checkpoint import Checkpoint
-from fem.results.outcome import OK, Outcome, failed, stoppable
+from fem.case import Case
+from fem.mechanics import damping_lines
+from fem.results import OK, Checkpoint, Outcome, failed, stoppable
 from fem.stepping.audit import EnergyAuditor
 from fem.stepping.coupled_step import AcceptedStep, CoupledModel, RejectedStep
 from fem.stepping.model_parts import Progress
 from fem.stepping.moment import Moment, Observer
-from fem.stepping.observers.bottom import BottomRecorder
-from fem.stepping.observers.fields import SnapshotTaker
-from fem.stepping.observers.history import HistoryRecorder
-from fem.stepping.observers.pyrometer import PyrometerReader
-from fem.stepping.observers.wear import WearRecorder
+from fem.stepping.observers import (
+    BottomRecorder,
+    HistoryRecorder,
+    PyrometerReader,
+    SnapshotTaker,
+    WearRecorder,
+)
 from fem.stepping.phases import Phase
 from fem.stepping.point import Records, RunPoint, RunRecord, columns
 from fem.stepping.programme import programme

@@ -3,10 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from fem.heat.layer_resolution import layer_error
-from fem.heat.model import HeatModel
-from fem.heat.state import HeatState
-from fem.results.outcome import Outcome
+from fem.heat import HeatModel, HeatState, layer_error
+from fem.results import Outcome
 from fem.stepping.balance import balance_error, share
 
 

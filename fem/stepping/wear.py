@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact.wear import EnergyWear
-from fem.mesh.block import BlockMesh
+from fem.mesh import BlockMesh
 from materials.arrays import FloatArray
 
 

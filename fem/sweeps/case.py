@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from fem.case import Case
-from fem.files import cause, one_line, write_text
-from fem.files.program_version import program_version
+from fem.files import cause, one_line, program_version, write_text
 from fem.results import (
     CASE_FILE,
     CHECKPOINT_FILE,
@@ -27,9 +26,9 @@ from fem.results import (
     CheckpointError,
     Result,
     RunFolder,
+    output_folder,
     read_summary,
 )
-from fem.results.output_folder import output_folder
 from fem.simulation import simulate
 
 RUNS_FOLDER = "runs"

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fem.case import Case, CaseError
-from fem.results import SUMMARY_CSV
-from fem.results.output_folder import output_folder
+from fem.results import SUMMARY_CSV, output_folder
 from fem.stepping import duration, estimated_cost, refuse_unaffordable
 from fem.sweeps.case import RUNS_FOLDER, CaseOutcome, Draw, SweepTask, earlier_outcome
 from fem.sweeps.progress import SweepProgress

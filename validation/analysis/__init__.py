@@ -1,2 +1,22 @@
 """What the tables and fields of finished runs tell: pure functions that claims, figures and
 sensitivity share."""
+
+from validation.analysis.paper_numbers import (
+    ACCEPTED_K,
+    BAR_STRAIN,
+    DUMBBELL_STRAIN,
+    MEASURED_TO_K,
+    PAPER_N_PER_MM,
+    SIMILAR,
+)
+from validation.analysis.ranges import (
+    CRITICAL_RANK_CORRELATION,
+    ends,
+    names_at_ends,
+    number,
+    numbers,
+    rank_correlation,
+    relative_range,
+)
+from validation.analysis.rubber_curves import TESTED_STRETCH
+from validation.analysis.shape import contour

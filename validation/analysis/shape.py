@@ -6,8 +6,7 @@ import numpy as np
 
 from fem.results import EDGE_ZONE, Result
 from materials.arrays import FloatArray
-from validation.drawing.field_panels import BlockState
-from validation.drawing.state_panels import last_state
+from validation.drawing import BlockState, last_state
 
 #: Height above the road up to which a point of the surface counts as touching it [mm].
 TOUCHING_MM = 1e-3

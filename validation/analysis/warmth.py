@@ -8,9 +8,8 @@ from scipy.special import erfc
 
 from fem.results import Result, interior_peak
 from materials.arrays import FloatArray
-from validation.analysis.numbers import number
-from validation.drawing.block_drawing import cell_areas
-from validation.drawing.state_panels import last_state
+from validation.analysis.ranges import number
+from validation.drawing import cell_areas, last_state
 
 _PLACES = 401
 

@@ -10,8 +10,8 @@ from fem.results import Result
 from fem.sweeps import StudyRun, study_runs
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Hyperelastic
-from validation.drawing.state_panels import reached
-from validation.paper.introductory import introductory_run
+from validation.drawing import reached
+from validation.paper import introductory_run
 from validation.studies import cases_of
 
 EXPONENTIAL, HUEMER = "exponential", "huemer"

@@ -11,9 +11,7 @@ import numpy as np
 from contact import InterfaceState
 from fem.results import Result
 from materials.units import ABSOLUTE_ZERO_C
-from validation.analysis import shape, warmth
-from validation.analysis.numbers import number
-from validation.analysis.paper_numbers import MEASURED_TO_K
+from validation.analysis import MEASURED_TO_K, number, shape, warmth
 from validation.claims.claim import Numbers
 from validation.claims.evidence import Evidence
 

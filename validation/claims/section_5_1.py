@@ -12,17 +12,21 @@ import numpy as np
 
 from fem.case import DEFAULT_COMPOUND
 from fem.results import Result
-from validation.analysis import rubber_curves, shape, warmth
-from validation.analysis.numbers import (
+from validation.analysis import (
     CRITICAL_RANK_CORRELATION,
+    MEASURED_TO_K,
+    PAPER_N_PER_MM,
+    SIMILAR,
     ends,
     names_at_ends,
     number,
     numbers,
     rank_correlation,
     relative_range,
+    rubber_curves,
+    shape,
+    warmth,
 )
-from validation.analysis.paper_numbers import MEASURED_TO_K, PAPER_N_PER_MM, SIMILAR
 from validation.claims.claim import Numbers
 from validation.claims.evidence import (
     LOAD,
@@ -33,8 +37,7 @@ from validation.claims.evidence import (
     UnfinishedError,
 )
 from validation.claims.statements import CHANGES, case_keys
-from validation.drawing.compound_names import COMPOUND_LOOKS
-from validation.drawing.state_panels import last_state
+from validation.drawing import COMPOUND_LOOKS, last_state
 
 _MODELS = {"Yeoh": YEOH, "van der Waals": VAN_DER_WAALS}
 _OF_BARS = [*YEOH.values(), *VAN_DER_WAALS.values()]

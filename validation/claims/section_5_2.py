@@ -11,12 +11,18 @@ from typing import Any
 import numpy as np
 
 from fem.results import Result
-from validation.analysis import warmth
-from validation.analysis.numbers import ends, number, numbers, relative_range
-from validation.analysis.paper_numbers import ACCEPTED_K, MEASURED_TO_K
+from validation.analysis import (
+    ACCEPTED_K,
+    MEASURED_TO_K,
+    ends,
+    number,
+    numbers,
+    relative_range,
+    warmth,
+)
 from validation.claims.claim import Numbers
 from validation.claims.evidence import EXPONENTIAL, HUEMER, LAWS, Evidence, Point
-from validation.drawing.compound_names import COMPOUND_LOOKS
+from validation.drawing import COMPOUND_LOOKS
 
 #: Pressures of the rigid block and of the estimate of its heat [N/mm^2].
 LOW, HIGH = 0.2, 0.4

@@ -6,9 +6,16 @@ and what else comparisons and texts name.
 
 import numpy as np
 
-from validation.analysis import shape, warmth
-from validation.analysis.numbers import ends, number, numbers, relative_range
-from validation.analysis.paper_numbers import BAR_STRAIN, DUMBBELL_STRAIN
+from validation.analysis import (
+    BAR_STRAIN,
+    DUMBBELL_STRAIN,
+    ends,
+    number,
+    numbers,
+    relative_range,
+    shape,
+    warmth,
+)
 from validation.claims.claim import Numbers
 from validation.claims.evidence import (
     EXPONENTIAL,
@@ -20,7 +27,7 @@ from validation.claims.evidence import (
     Evidence,
 )
 from validation.claims.statements import case_keys
-from validation.drawing.compound_names import COMPOUND_LOOKS
+from validation.drawing import COMPOUND_LOOKS
 
 
 def coupling_matters(evidence: Evidence) -> Numbers:

@@ -4,9 +4,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from validation.analysis import paper_numbers
-from validation.analysis.numbers import CRITICAL_RANK_CORRELATION
-from validation.analysis.rubber_curves import TESTED_STRETCH
+from validation.analysis import CRITICAL_RANK_CORRELATION, TESTED_STRETCH, paper_numbers
 
 _TABLES: dict[str, Any] = tomllib.loads(
     Path(__file__).with_name("statements.toml").read_text(encoding="utf-8")

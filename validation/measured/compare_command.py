@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from fem.files import spreadsheet, write_text
-from validation.drawing.style import save
+from validation.drawing import save
 from validation.measured.comparison import Comparison, compare, simulated_runs
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
 from validation.measured.measurements import read_measurements

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from calibration.data.errors import DataError
+from calibration.data import DataError
 from fem.case import Case, CaseError, describe
 from fem.results import (
     CASE_FILE,
@@ -22,7 +22,7 @@ from fem.results import (
     read_summary,
     read_table,
 )
-from validation.analysis.paper_numbers import ACCEPTED_K, MEASURED_TO_K
+from validation.analysis import ACCEPTED_K, MEASURED_TO_K
 from validation.measured.matching import (
     START_TOLERANCE_K,
     TOLERANCES,

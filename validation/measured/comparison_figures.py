@@ -8,7 +8,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.drawing.style import (
+from validation.drawing import (
     BLACK,
     CURVES,
     DASHES,

@@ -7,8 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from validation.drawing.compound_names import COMPOUND_LOOKS
-from validation.drawing.style import BLACK
+from validation.drawing import BLACK, COMPOUND_LOOKS
 from validation.measured.comparison_figures import draw_measured_profile
 from validation.measured.matching import TOLERANCES
 from validation.measured.measurements import Measurements, Profile

@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from calibration.data.tables import Table, read_table
+from calibration.data import Table, read_table
 from contact import FRICTION_LAWS
 from fem.results import excess_area, interior_peak
 from materials.arrays import FloatArray

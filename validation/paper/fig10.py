@@ -7,9 +7,7 @@ from matplotlib.figure import Figure
 
 from fem.files import write_table
 from fem.sweeps import StudyRun, study_runs
-from validation.drawing.compound_names import COMPOUND_LOOKS
-from validation.drawing.state_panels import reached
-from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
+from validation.drawing import COMPOUND_LOOKS, PAGE_WIDTH, new_figure, reached, save, styled
 from validation.paper.fig9 import COMPOUND
 from validation.studies import cases_of
 

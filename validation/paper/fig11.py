@@ -6,14 +6,13 @@ from matplotlib.figure import Figure
 
 from fem.files import write_table
 from fem.sweeps import StudyRun, study_runs
-from validation.drawing.state_panels import reached
-from validation.drawing.style import BLUE, PAGE_WIDTH, VERMILLION, new_figure, save, styled
-from validation.measured.measured_points import (
+from validation.drawing import BLUE, PAGE_WIDTH, VERMILLION, new_figure, reached, save, styled
+from validation.measured import (
+    Measurements,
     draw_measured_profile,
     measured_profiles,
     shared_legend,
 )
-from validation.measured.measurements import Measurements
 from validation.paper.fig10 import profile_table
 from validation.studies import cases_of
 

@@ -9,10 +9,8 @@ from matplotlib.lines import Line2D
 
 from fem.files import write_table
 from fem.sweeps import StudyRun, study_runs
-from validation.drawing.compound_names import COMPOUND_LOOKS
-from validation.drawing.style import BLACK, PAGE_WIDTH, new_figure, save, styled
-from validation.measured.measured_points import MEASURED_MARK, draw_measured_points
-from validation.measured.measurements import Measurements
+from validation.drawing import BLACK, COMPOUND_LOOKS, PAGE_WIDTH, new_figure, save, styled
+from validation.measured import MEASURED_MARK, Measurements, draw_measured_points
 from validation.paper.fig11 import LAW_LABELS, LAW_LOOKS
 from validation.studies import cases_of
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
-from calibration.synthetic import synthetic_dumbbell_cycles
+from calibration import synthetic_dumbbell_cycles
 from fem.files import write_table
-from validation.drawing.style import GREY, PAGE_WIDTH, new_figure, save, styled
+from validation.drawing import GREY, PAGE_WIDTH, new_figure, save, styled
 from validation.paper.stress_panels import SYNTHETIC_NOTE, draw_row, marked, set_table
 
 STRAIN, STRESS = (-22.0, 52.0), (-1.2, 1.25)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from contact import FRICTION_LAWS, FrictionLaw, HuemerFriction
 from fem.files import write_table
-from validation.drawing.style import (
+from validation.drawing import (
     BLACK,
     CURVES,
     GREY,

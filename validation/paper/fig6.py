@@ -8,17 +8,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from calibration.conductance.fit import (
+from calibration.conductance import (
     CONDUCTANCE,
+    HeatingRig,
+    RigModel,
     RigPrediction,
     fit_conductance,
     read_heating_record,
     synthetic_heating_record,
 )
-from calibration.conductance.heating_rig import HeatingRig, RigModel
-from calibration.fitting.core import FitResult
+from calibration.fitting import FitResult
 from fem.files import write_table
-from validation.drawing.style import (
+from validation.drawing import (
     BLACK,
     CURVES,
     GREY,

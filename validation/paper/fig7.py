@@ -10,24 +10,22 @@ from matplotlib.patches import ConnectionPatch, Rectangle
 from fem.case import Case
 from fem.files import write_table
 from fem.mesh import BlockMesh
-from fem.simulation import mesh_of
-from validation.drawing.block_drawing import (
-    Window,
-    draw_mesh,
-    draw_outline,
-    draw_road,
-    mark_window,
-    set_window,
-)
-from validation.drawing.style import (
+from fem.stepping import mesh_of
+from validation.drawing import (
     BLACK,
     BLUE,
     GREY,
     PAGE_WIDTH,
     RUBBER_GREY,
     VERMILLION,
+    Window,
+    draw_mesh,
+    draw_outline,
+    draw_road,
+    mark_window,
     new_figure,
     save,
+    set_window,
     styled,
 )
 from validation.paper.introductory import introductory_case

@@ -7,9 +7,18 @@ from matplotlib.figure import Figure
 
 from fem.files import write_table
 from fem.results import Result
-from validation.drawing.history_panels import draw_friction, draw_temperature
-from validation.drawing.state_panels import WIDTHS, draw_fields, last_state, reached
-from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
+from validation.drawing import (
+    PAGE_WIDTH,
+    WIDTHS,
+    draw_fields,
+    draw_friction,
+    draw_temperature,
+    last_state,
+    new_figure,
+    reached,
+    save,
+    styled,
+)
 from validation.paper.introductory import introductory_run
 
 SHOWN = ("time_s", "sliding_distance_mm", "friction_coefficient", "T_max_C", "T_edge_C")

@@ -11,18 +11,26 @@ from matplotlib.lines import Line2D
 
 from fem.files import write_table
 from fem.sweeps import StudyRun, study_runs
-from validation.analysis.shape import contour
-from validation.drawing.block_drawing import (
+from validation.analysis import contour
+from validation.drawing import (
+    BLACK,
+    COMPOUND_LOOKS,
+    PAGE_WIDTH,
+    STRESS_MAP,
+    BlockState,
     Window,
     draw_outline,
     draw_road,
     draw_smooth,
+    last_state,
+    new_figure,
+    reached,
+    save,
     set_window,
+    stress_scale,
+    styled,
+    vertical_stress,
 )
-from validation.drawing.compound_names import COMPOUND_LOOKS
-from validation.drawing.field_panels import BlockState, stress_scale, vertical_stress
-from validation.drawing.state_panels import last_state, reached
-from validation.drawing.style import BLACK, PAGE_WIDTH, STRESS_MAP, new_figure, save, styled
 from validation.studies import cases_of
 
 COMPOUND = "rubber.compound"

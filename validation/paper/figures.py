@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from validation.measured.measurements import Measurements
+from validation.measured import Measurements
 from validation.paper import fig2, fig3, fig4, fig6, fig7, fig8, fig9, fig10, fig11, fig12
 
 #: Number of the figure to the function that draws it into a folder and returns the picture's path.

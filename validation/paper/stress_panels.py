@@ -6,10 +6,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from calibration.rubber.cycles import last_full_cycle
+from calibration.rubber import last_full_cycle
 from materials.compounds import compound
-from validation.drawing.compound_names import COMPOUND_LOOKS
-from validation.drawing.style import BLACK, GREY
+from validation.drawing import BLACK, COMPOUND_LOOKS, GREY
 
 SYNTHETIC_NOTE = "synthetic test: made from the paper's parameters, not measured"
 

@@ -6,8 +6,8 @@ import pandas as pd
 
 from fem.files import write_table, write_text
 from fem.sweeps import StudyRun, study_runs
-from validation.analysis.paper_numbers import PAPER_N_PER_MM
-from validation.drawing.compound_names import COMPOUND_LOOKS
+from validation.analysis import PAPER_N_PER_MM
+from validation.drawing import COMPOUND_LOOKS
 from validation.paper.fig9 import COMPOUND
 from validation.studies import cases_of
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from calibration.paper_tables import write_table1, write_table2
+from calibration import write_table1, write_table2
 from validation.paper import table3, table4
 
 #: Number of the table to the function that writes it into a folder and returns the readable file.

@@ -6,7 +6,7 @@ from typing import Any
 
 from fem.case import Case
 from fem.results import RunFolder
-from validation.paper.introductory import introductory_case
+from validation.paper import introductory_case
 
 #: Results that are shown: key of the summary to its name, unit and format.
 SHOWN = {

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from fem.files.program_version import ROOT, program_version, version_of
+from fem.files import ROOT, program_version, version_of
 from fem.results import SUMMARY_JSON, read_summary
 
 #: Packages whose version decides numbers or pictures.

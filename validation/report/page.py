@@ -12,7 +12,7 @@ from validation.report.cells import is_number
 from validation.report.introductory_part import IntroductoryRun, find_introductory
 from validation.report.made_with import MadeWith, made_with, programs_of_runs
 from validation.report.parts import Part, find_part
-from validation.sensitivity.parameters import PARAMETERS, Parameter, first_key
+from validation.sensitivity import PARAMETERS, Parameter, first_key
 from validation.studies import STUDIES
 
 TEMPLATE = "report.html"

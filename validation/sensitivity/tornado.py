@@ -7,8 +7,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.analysis.paper_numbers import MEASURED_TO_K
-from validation.drawing.style import BLUE, GREY, PAGE_WIDTH, VERMILLION, new_figure, styled
+from validation.analysis import MEASURED_TO_K
+from validation.drawing import BLUE, GREY, PAGE_WIDTH, VERMILLION, new_figure, styled
 from validation.sensitivity.parameters import NUMERICS, PARAMETERS, PHYSICS, first_key
 
 PANELS = {

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fem.files import write_table, write_text
 from fem.sweeps import study_runs
-from validation.drawing.style import save
+from validation.drawing import save
 from validation.sensitivity.table import sensitivity_table
 from validation.sensitivity.text import sensitivity_text
 from validation.sensitivity.tornado import draw

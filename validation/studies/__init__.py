@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fem.sweeps.study import StudyCase, read_study
+from fem.sweeps import StudyCase, read_study
 
 STUDIES = Path(__file__).parent
 #: Case files that a study file may name as its base.

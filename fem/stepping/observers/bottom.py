@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from fem.mesh.block import BlockMesh
-from fem.results.bottom_history import BottomHistory
+from fem.mesh import BlockMesh
+from fem.results import BottomHistory
 from fem.stepping.moment import Moment
 from materials.arrays import AnyArray
 

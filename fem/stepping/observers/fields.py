@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from fem.case.case import Case
-from fem.results.snapshot import Snapshot
+from fem.case import Case
+from fem.results import Snapshot
 from fem.stepping.coupled_step import CoupledModel, CoupledState
 from fem.stepping.moment import Moment
 from fem.stepping.phases import Phase

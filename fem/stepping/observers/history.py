@@ -5,12 +5,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fem.case.case import Case
-from fem.mechanics.account import Strains
-from fem.mechanics.step import platen_displacement
-from fem.mesh.block import BlockMesh
-from fem.results.boundary import BoundaryContact, boundary_table
-from fem.results.fitted_window import contact_columns, rubber_columns
+from fem.case import Case
+from fem.mechanics import Strains, platen_displacement
+from fem.mesh import BlockMesh
+from fem.results import BoundaryContact, boundary_table, contact_columns, rubber_columns
 from fem.stepping.audit import EnergyAudit, EnergyAuditor
 from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
 from fem.stepping.moment import Moment

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from fem.case.case import Case
-from fem.results.pyrometer import pyrometer_table
+from fem.case import Case
+from fem.results import pyrometer_table
 from fem.stepping.coupled_step import CoupledModel
 from fem.stepping.moment import Moment
 from fem.stepping.per_block import temperature_columns

@@ -1,7 +1,7 @@
 """Adds up what wears off the block's surface."""
 
-from fem.case.case import Case
-from fem.mesh.block import BlockMesh
+from fem.case import Case
+from fem.mesh import BlockMesh
 from fem.stepping.moment import Moment
 from fem.stepping.wear import Wear, worn
 

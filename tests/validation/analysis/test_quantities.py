@@ -10,8 +10,8 @@ from materials.compounds import COMPOUNDS
 from materials.hyperelastic import NeoHooke, Yeoh
 from tests.made_up_result import HEIGHT, LENGTH, made_up_result
 from tests.validation.claims.made_up_evidence import at, curled, with_snapshot, with_surface
-from validation.analysis.numbers import relative_range
 from validation.analysis.paper_numbers import SIMILAR
+from validation.analysis.ranges import relative_range
 from validation.analysis.rubber_curves import (
     secant_shear_modulus,
     stiffening,

@@ -10,7 +10,7 @@ from scipy.stats import spearmanr
 
 from tests.validation.claims.broken import BROKEN
 from tests.validation.claims.made_up_evidence import MadeUpEvidence, paper_like_evidence
-from validation.analysis.numbers import CRITICAL_RANK_CORRELATION
+from validation.analysis.ranges import CRITICAL_RANK_CORRELATION
 from validation.claims.claim import DIFFERS, HOLDS, UNCHECKED, Claim
 from validation.claims.ledger import CLAIMS, judged
 

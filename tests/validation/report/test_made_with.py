@@ -7,7 +7,7 @@ import subprocess
 
 import pytest
 
-from fem.files.program_version import program_version
+from fem.files.version import program_version
 from validation.report.made_with import PACKAGES, describe_commit, made_with
 
 needs_git = pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")

@@ -14,8 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from fem.files import write_text
-from fem.files.program_version import ROOT, fingerprint, program_version
+from fem.files import ROOT, fingerprint, program_version, write_text
 
 _FOLDERS = (ROOT / "calibration", ROOT / "validation")
 _SUFFIXES = {".py", ".toml", ".csv", ".html"}

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from fem import Case, simulate
-from fem.results.sliding_regime import (
+from fem.results.regime import (
     CAUGHT,
     CYCLES,
     ONSET,

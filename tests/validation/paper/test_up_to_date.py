@@ -2,8 +2,8 @@
 
 import pytest
 
-from validation.paper import kept as module
-from validation.paper.kept import kept
+from validation.paper import up_to_date as module
+from validation.paper.up_to_date import kept
 
 
 @pytest.fixture
@@ -58,7 +58,7 @@ def test_a_changed_docstring_or_comment_leaves_it_and_a_changed_constant_does_no
     program = module.program_version()
     monkeypatch.setattr(module, "program_version", lambda: program)
     monkeypatch.setattr(module, "_FOLDERS", (source.parent,))
-    monkeypatch.setattr("fem.files.program_version.ROOT", tmp_path / "program")
+    monkeypatch.setattr("fem.files.version.ROOT", tmp_path / "program")
 
     def made_again(text):
         source.write_text(text)

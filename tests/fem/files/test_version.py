@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from fem.files import program_version as module
-from fem.files.program_version import fingerprint, program_version
+from fem.files import version as module
+from fem.files.version import fingerprint, program_version
 
 SOURCE = '''"""Radiation."""
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from fem.case.errors import CaseError
-from fem.results.output_folder import (
+from fem.results.output import (
     LOCK_FILE,
     check_output_file,
     check_output_folder,
@@ -19,7 +19,7 @@ from fem.results.output_folder import (
 ROOT = Path(__file__).parents[3]
 HOLDER = """
 import sys
-from fem.results.output_folder import output_folder
+from fem.results.output import output_folder
 with output_folder(sys.argv[1]):
     print("held", flush=True)
     sys.stdin.read()
