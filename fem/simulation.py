@@ -60,7 +60,7 @@ FIRST_PASS_TOLERANCE = 1e-4
 def coupled_model(case: Case) -> CoupledModel:
     """Mechanics, heat and contact laws of a case."""
     mesh, solver, deforms = mesh_of(case), case.solver, not case.block.rigid
-    viscoelastic = case.rubber.viscoelastic
+    viscoelastic, mullins = case.rubber.viscoelastic, case.rubber.mullins
     laws = ContactLaws(
         friction=case.friction.law_object(),
         partition=case.heat.partition_object(),
@@ -76,7 +76,8 @@ def coupled_model(case: Case) -> CoupledModel:
         options=newton.NewtonOptions(iterations_max=solver.newton_iterations_max),
         first_merit=FIRST_PASS_TOLERANCE / solver.tolerance,
         self_contact=self_contact_of(case, mesh) if deforms else None,
-        rubber_heats=viscoelastic is None or viscoelastic.heats,
+        viscosity_heats=viscoelastic is None or viscoelastic.heats,
+        damage_heats=mullins is None or mullins.heats,
     )
 
 

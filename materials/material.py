@@ -110,6 +110,18 @@ class StepEnd:
     damage: FloatArray | None = None
     softening: FloatArray | None = None
 
+    def heat(self, *, viscous: bool = True, damage: bool = True) -> FloatArray | None:
+        """Energy per reference volume that became heat in the step [N/mm^2]; None without.
+
+        Parameters
+        ----------
+        viscous, damage : bool
+            Whether what viscosity dissipated, and what damage consumed, counts.
+        """
+        parts = (self.viscous if viscous else None, self.damage if damage else None)
+        found = [part for part in parts if part is not None]
+        return sum(found[1:], found[0]) if found else None
+
 
 class MaterialStep(Protocol):
     """A material in a time step from an accepted state; asking changes nothing."""

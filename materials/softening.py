@@ -4,6 +4,7 @@ References
 ----------
 .. [1] Ogden, R. W., Roxburgh, D. G., Proc. R. Soc. Lond. A 455 (1999) 2861-2877; with the term
    ``beta W_max`` the three-parameter form in use in finite-element programs.
+.. [2] Lake, G. J., Thomas, A. G., Proc. R. Soc. Lond. A 300 (1967) 108-119.
 """
 
 from dataclasses import dataclass
@@ -23,6 +24,11 @@ class OgdenRoxburgh:
 
     ``eta = 1 - erf[(W_max - W)/(m + beta W_max)]/r``, where W is the energy of the elastic law and
     W_max its largest value so far.
+
+    The free energy is what unloading gives back (`recoverable`), so that growing W_max dissipates
+    ``-d(recoverable)/dW_max`` (`consumed`). All of it is heat: a chain that breaks or lets go of a
+    filler particle was stretched bond by bond and loses the energy of all its bonds, of which the
+    one that stays broken keeps only one in a hundred [2]_.
 
     Parameters
     ----------

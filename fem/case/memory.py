@@ -79,6 +79,7 @@ class Mullins(Section):
     beta: Annotated[NotNegative, Field(le=1e3)] = Field(
         0.0, description="share of the largest energy that is added to m [-]"
     )
+    heats: bool = Field(True, description="what the softening consumes heats the block")
 
     def softening(self) -> OgdenRoxburgh:
         """Build the law."""

@@ -78,7 +78,7 @@ class RigidMechanics:
         cells = len(self.mesh.cells)
         return CellFields(cauchy=np.zeros((cells, 4)), stretch=np.ones(cells))
 
-    def bulk_power(self, rubber: StepEnd, dt: float) -> None:
+    def bulk_power(self, heat: FloatArray | None, dt: float) -> None:
         """No heat from deformation."""
 
 

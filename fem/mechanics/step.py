@@ -280,9 +280,9 @@ class BlockMechanics:
             softening=None if softening is None else elements.mean(softening),
         )
 
-    def bulk_power(self, rubber: StepEnd, dt: float) -> FloatArray | None:
-        """Power that the rubber's own viscosity dissipates, by node [mJ/s]; None without."""
-        return None if rubber.viscous is None else self.elements.nodal_integral(rubber.viscous) / dt
+    def bulk_power(self, heat: FloatArray | None, dt: float) -> FloatArray | None:
+        """Power of what became heat in the rubber in a step [N/mm^2], by node [mJ/s]."""
+        return None if heat is None else self.elements.nodal_integral(heat) / dt
 
     def material(
         self, state: MechanicalState, T_C: FloatArray | None, dt: float = 0.0

@@ -183,8 +183,8 @@ class CoupledModel:
         Merit that suffices in a pass whose friction coefficient is still to be corrected.
     self_contact : SelfContact, optional
         Contact of the block with itself; none without it.
-    rubber_heats : bool
-        Whether what the rubber's viscosity dissipates heats the block.
+    viscosity_heats, damage_heats : bool
+        Whether what the rubber's viscosity dissipates and its damage consumes heats the block.
     """
 
     def __init__(
@@ -199,9 +199,10 @@ class CoupledModel:
         options: newton.NewtonOptions,
         first_merit: float = 1.0,
         self_contact: SelfContact | None = None,
-        rubber_heats: bool = True,
+        viscosity_heats: bool = True,
+        damage_heats: bool = True,
     ) -> None:
-        self.rubber_heats = rubber_heats
+        self.viscosity_heats, self.damage_heats = viscosity_heats, damage_heats
         self.self_contact, self.damping = self_contact, damping
         self.mechanics, self.heat, self.laws = mechanics, heat, laws
         self.mean_pressure, self.friction_passes = mean_pressure, friction_passes
@@ -394,7 +395,9 @@ class CoupledModel:
         heat = self._heat(
             state, target, x.u, contact, interface, kappa * power,
             surface=(nodes, work / target.dt),
-            bulk=self.mechanics.bulk_power(rubber, target.dt) if self.rubber_heats else None,
+            bulk=self.mechanics.bulk_power(
+                rubber.heat(viscous=self.viscosity_heats, damage=self.damage_heats), target.dt
+            ),
         )  # fmt: skip
         self_shear = self._self_shear(problem, result.evaluation)
         mechanics = replace(

@@ -19,11 +19,11 @@ SPECTRUM = {"g": [1.5, 0.8, 0.4, 0.3], "tau_s": [1e-4, 1e-3, 1e-2, 1e-1]}
 MULLINS = {"r": 2.0, "m_N_per_mm2": 0.1, "beta": 0.1}
 
 
-def case_of(distance=3.0, *, solver=None, heat=None, **rubber):
+def case_of(distance=3.0, *, loading=None, solver=None, heat=None, **rubber):
+    slide = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300.0, "distance_mm": distance}
     return Case.from_dict(
         {
-            "loading": {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 300.0,
-                        "distance_mm": distance},
+            "loading": loading or slide,
             "block": {"mesh": SMALL},
             "rubber": rubber,
             "heat": heat or {},
@@ -57,10 +57,11 @@ def test_energy_is_stored_dissipated_or_consumed(run):
     assert run.summary["damage_share"] > 0.01
 
 
-def test_what_the_branches_dissipate_heats_the_block(run):
+def test_what_branches_dissipate_and_damage_consumes_heats_the_block(run):
     assert run.summary["heat_error"] < 1e-9
     heat = column(run, "bulk_heat")
-    np.testing.assert_allclose(heat, column(run, "rubber_dissipation"), rtol=1e-12)
+    lost = column(run, "rubber_dissipation") + column(run, "damage_energy")
+    np.testing.assert_allclose(heat, lost, rtol=1e-12)
     found = sum(column(run, name) for name in ("heat_in_rubber", "heat_in_road", "radiated"))
     np.testing.assert_allclose(found, column(run, "frictional_heat") + heat, rtol=1e-9)
 
@@ -95,11 +96,28 @@ def test_fields_have_softening_and_dissipation_and_are_read_back(run, tmp_path):
     assert b"viscous_dissipation_mJ_per_mm3" in text
 
 
-def test_heat_of_the_bulk_may_be_left_out():
-    result = simulate(case_of(0.5, viscoelastic=SPECTRUM | {"heats": False}))
-    assert column(result, "rubber_dissipation").iloc[-1] > 0.0
-    assert not column(result, "bulk_heat").any()
+@pytest.mark.parametrize("part", ["viscoelastic", "mullins"])
+def test_heat_of_the_bulk_may_be_left_out_part_by_part(part):
+    parts = {"viscoelastic": SPECTRUM, "mullins": MULLINS}
+    lost = {"viscoelastic": "damage_energy", "mullins": "rubber_dissipation"}[part]
+    result = simulate(case_of(0.5, **parts | {part: parts[part] | {"heats": False}}))
+    for name in ("rubber_dissipation", "damage_energy"):
+        assert column(result, name).iloc[-1] > 0.0
+    np.testing.assert_allclose(column(result, "bulk_heat"), column(result, lost), rtol=1e-12)
     assert result.summary["heat_error"] < 1e-9
+
+
+def test_a_virgin_block_is_warmed_by_its_first_pressing_only():
+    """Heat of damage comes with loads larger than before."""
+    press = {"kind": "press", "time_s": 0.01}
+    loads = [{**press, "mean_pressure_N_per_mm2": p} for p in (0.4, 0.02, 0.4, 0.5)]
+    slide = {"kind": "slide", "velocity_mm_per_s": 300.0, "distance_mm": 0.02}
+    history = simulate(case_of(loading={"phase": [*loads, slide]}, mullins=MULLINS)).history
+    ends = history.groupby("phase").bulk_heat_mJ_per_mm.last()
+    assert ends[1] > 0.0
+    assert ends[2] == pytest.approx(ends[1], rel=1e-6)
+    assert ends[3] == pytest.approx(ends[1], rel=0.02)
+    assert ends[4] > 1.2 * ends[3]
 
 
 def test_rubber_without_a_memory_has_none_of_it():

@@ -48,6 +48,7 @@ MEMORY = [
     mullins("r below 1", "r = 0.5, m_N_per_mm2 = 0.3", ".r", "0.5", "at least 1"),
     mullins("zero energy", "r = 2.0, m_N_per_mm2 = 0.0", ".m_N_per_mm2", "0.0", "at least"),
     mullins("negative beta", "r = 2.0, m_N_per_mm2 = 0.3, beta = -0.1", ".beta", "-0.1", "least"),
+    mullins("heats a word", 'r = 2.0, m_N_per_mm2 = 0.3, heats = "no"', ".heats", "no", "true or"),
     mullins("without unit", "r = 2.0, m = 0.3", ".m", "unknown key", "m_N_per_mm2"),
     wrong("mullins: no table", "[rubber]\nmullins = 2.0", "rubber.mullins", "2.0", "a table"),
     wrong("damping by another name", '[solver]\nsnap_damping = "off"', "solver.snap_damping",
