@@ -1,4 +1,4 @@
-"""Mechanics of a block that does not deform, with the face of `fem.mechanics.step`.
+"""Mechanics of a block that does not deform, with the face of `fem.mechanics.block`.
 
 The pressure is the same along the whole bottom, which slips as the platen moves, and sticks without
 friction where it stands. The forces of a step jump to their values at its start. Heat, friction
@@ -17,8 +17,8 @@ from contact.active_set import OPEN, SLIP, STICK, ContactForces, ContactStatus
 from contact.self_contact import Pairs
 from fem.mechanics.account import CellFields, StepEnergies, Strains
 from fem.mechanics.elements import NO_PAST, Past
+from fem.mechanics.iterate import Iterate, StepEvaluation, StepLoad
 from fem.mechanics.state import MechanicalState
-from fem.mechanics.step import Iterate, StepEvaluation, StepLoad
 from fem.mesh import BlockMesh
 from fem.solvers import LinearSolver, SuperLUSolver
 from materials.arrays import BoolArray, FloatArray
@@ -26,7 +26,7 @@ from materials.material import StepEnd
 
 
 class RigidMechanics:
-    """A rigid block between platen and road; see `fem.mechanics.step.BlockMechanics`."""
+    """A rigid block between platen and road; see `fem.mechanics.block.BlockMechanics`."""
 
     deforms = False
     #: Weight of the forces at the start of a step in their mean over it.

@@ -1,351 +1,46 @@
-"""One implicit step of the block's mechanics: equilibrium, inertia, platen and road contact.
-
-Everything is written in the platen's frame: the block's top does not move along x, the road moves
-below it by ``-sweep`` in a step. Equations and unknowns are the free displacements; the common
-vertical displacement of the platen is one of them. For a rigid plane the normal constraint of a
-node in contact replaces its vertical equation, its reaction is the nodal force of that equation,
-and Coulomb friction is the row operation ``row_x + s mu row_y`` (s: sense of the slip).
-"""
+"""The Newton problem of one implicit step: residual, status of the contact and direction."""
 
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass, replace
-from typing import Literal
+from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import coo_matrix, csc_matrix
+from scipy.sparse import csc_matrix
 
 from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
 from contact.self_contact import (
-    Boundary,
     PairForces,
-    PairMultipliers,
     Pairs,
     multiplier_step,
     multipliers_after,
     pair_forces,
     pair_tangents,
 )
-from fem.mechanics.account import CellFields, StepEnergies, Strains
-from fem.mechanics.elements import ElementForces, Past, Q1P0Elements, Viscosity, tangent_entries
+from fem.mechanics.elements import ElementForces, Past, Viscosity
+from fem.mechanics.equations import BlockEquations
+from fem.mechanics.iterate import Iterate, StepEvaluation, StepLoad, inadmissible
 from fem.mechanics.state import MechanicalState
-from fem.mesh import BlockMesh
-from fem.solvers import LinearSolver, SparsePattern, SuperLUSolver, nested_dissection, summed
-from materials.arrays import FloatArray, IntArray
+from fem.solvers import summed
+from materials.arrays import FloatArray
 from materials.material import MaterialStep, StepEnd
 
 #: Largest change of a deformation gradient in one Newton iteration [-].
 STRAIN_LIMIT = 1.0
 
 
-@dataclass(frozen=True, kw_only=True)
-class StepLoad:
-    """Loads and prescribed motion of one step.
-
-    Attributes
-    ----------
-    dt : float
-        Length of the step [s].
-    sweep : float
-        Motion of the platen over the road in the step, signed [mm].
-    force : float
-        Force on the platen, downwards, per depth, at the end of the step [N/mm].
-    mu : (m,) float array
-        Friction coefficient of the candidates [-].
-    damping : (ne, 1) float array or None
-        Stress per strain increment of the step, by element [N/mm^2]; None without damping.
-    pairs : Pairs or None
-        Nodes and segments of the boundary that may meet; None without self-contact.
-    T_C : (n,) float array or None
-        Temperature of the nodes in the last accepted step, for rubber with a memory [C].
-    raised : float or None
-        Rise of the platen in the step, which takes the place of the force [mm].
-    inertia : bool
-        Whether the mass of the block counts; without it the block ends the step at rest.
-    """
-
-    dt: float
-    sweep: float
-    force: float
-    mu: FloatArray
-    damping: FloatArray | None = None
-    pairs: Pairs | None = None
-    T_C: FloatArray | None = None
-    raised: float | None = None
-    inertia: bool = True
-
-
-@dataclass(frozen=True, kw_only=True)
-class Iterate:
-    """Unknowns of the Newton iteration; directions and their changes have the same form.
-
-    Attributes
-    ----------
-    u, p : float arrays
-        Displacements (n, 2) [mm] and element pressures (ne,) [N/mm^2].
-    status : ContactStatus
-        Status the iterate was computed with.
-    reactions : (m, 2) float array or None
-        Nodal forces of the candidates by the linear system that gave the iterate [N/mm].
-    pairs : PairMultipliers or None
-        Forces of self-contact by that system; None: those of the gaps.
-    """
-
-    u: FloatArray
-    p: FloatArray
-    status: ContactStatus
-    reactions: FloatArray | None = None
-    pairs: PairMultipliers | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class StepEvaluation:
-    """Residual of an iterate.
-
-    Attributes
-    ----------
-    merit : float
-        Largest residual over its tolerance scale; inf if the iterate is not admissible.
-    settled : bool
-        Whether the status asked for is the one the iterate was computed with.
-    status : ContactStatus
-        Status asked for by the iterate.
-    nodal : (n, 2) float array
-        Nodal forces: internal, viscous, inertial and of self-contact, minus the applied ones
-        [N/mm].
-    residual : (size,) float array
-        Residual of the equations, with the forces of self-contact that the gaps would make.
-    elements : ElementForces or None
-        Element forces and kinematics; None if the iterate is not admissible.
-    pairs : PairForces or None
-        Forces of self-contact.
-    """
-
-    merit: float
-    settled: bool
-    status: ContactStatus
-    nodal: FloatArray
-    residual: FloatArray
-    elements: ElementForces | None
-    pairs: PairForces | None = None
-
-    @property
-    def signature(self) -> bytes:
-        """Name of the status asked for."""
-        road = self.status.kind.astype(np.int8).tobytes()
-        return road if self.pairs is None else road + self.pairs.signature
-
-
-class BlockMechanics:
-    """Discrete equations of a block between platen and road.
-
-    Parameters
-    ----------
-    mesh : BlockMesh
-        Reference mesh.
-    elements : Q1P0Elements
-        Element kernel on that mesh.
-    density : float
-        Mass density [t/mm^3]; zero for quasi-static steps.
-    top : {"platen", "pressure"}
-        Rigid platen, or free uniform pressure with fixed horizontal displacement.
-    tolerance : float
-        Force residual [N/mm] that counts as converged.
-    """
-
-    deforms = True
-    #: Weight of the forces at the start of a step in their mean over it: the trapezoidal rule.
-    start_weight = 0.5
-
-    def __init__(
-        self,
-        mesh: BlockMesh,
-        elements: Q1P0Elements,
-        *,
-        density: float = 0.0,
-        top: Literal["platen", "pressure"] = "platen",
-        tolerance: float = 1e-8,
-        solver: LinearSolver | None = None,
-    ) -> None:
-        self.mesh, self.elements, self.top = mesh, elements, top
-        self.tolerance = tolerance
-        self.solver: LinearSolver = solver or SuperLUSolver()
-        n = len(mesh.points)
-        self.mass = np.bincount(
-            mesh.cells.ravel(), np.repeat(density * elements.volume / 4.0, 4), minlength=n
-        )
-        self.candidates = mesh.candidates
-        size = mesh.node_size[mesh.boundary]
-        self.boundary = Boundary.of(
-            mesh.boundary, mesh.direction, mesh.points, size, joined=mesh.joined
-        )
-        self._number_equations()
-        self._top_load = np.zeros(n)
-        self._top_load[mesh.top] = mesh.top_shares
-
-    def _number_equations(self) -> None:
-        """Equation numbers of all dofs (-1: prescribed), in a fill-reducing order."""
-        mesh, platen = self.mesh, self.top == "platen"
-        free = np.ones((len(mesh.points), 2), dtype=bool)
-        free[mesh.top, 0] = False
-        free[mesh.top, 1] = not platen
-        # The mirror image of a mesh has the same order.
-        order = nested_dissection(mesh.points * [mesh.direction, 1.0], mesh.cells)
-        dof = np.full(free.shape, -1)
-        dof[order] = np.where(free[order], np.cumsum(free[order]).reshape(-1, 2) - 1, -1)
-        size = int(free.sum()) + platen
-        if platen:
-            # Coupled with all nodes of the top, so it comes last.
-            dof[mesh.top, 1] = size - 1
-        self.equation = dof
-        self.pattern = SparsePattern.from_entries(*tangent_entries(dof[mesh.cells]), size)
-        self._diagonal = self.pattern.diagonal_slots()
-        rows = self.equation[self.candidates]
-        self._slots_x, self._owner = self.pattern.row_slots(rows[:, 0])
-        self._slots_y, _ = self.pattern.row_slots(rows[:, 1])
-        self._slots_platen, _ = self.pattern.row_slots(np.array([size - 1]))
-        self._numbered = dof.ravel() >= 0
-
-    @property
-    def size(self) -> int:
-        """Number of equations."""
-        return self.pattern.size
-
-    def initial_state(self) -> MechanicalState:
-        """Undeformed block at rest, just above the road."""
-        n = len(self.mesh.points)
-        zeros = np.zeros((n, 2))
-        return MechanicalState(
-            u=zeros,
-            velocity=zeros,
-            p=np.zeros(len(self.mesh.cells)),
-            status=self._touching(zeros),
-            rubber=self.elements.virgin,
-        )
-
-    def _touching(self, u: FloatArray) -> ContactStatus:
-        """Nodes on the road stick."""
-        status = ContactStatus.all_open(self.candidates.size)
-        return replace(status, kind=np.where(self.gap(u) <= 0.0, STICK, status.kind))
-
-    def above_road(self, state: MechanicalState) -> MechanicalState:
-        """A block that hangs free, lowered as a whole to just above the road, at rest.
-
-        What is nearer to the road than a hundred-thousandth of the height touches it at once: a
-        block that has sprung back is even to rounding and to what the last step left.
-        """
-        gap = self.gap(state.u)
-        u = state.u - [0.0, gap.min()]
-        near = gap - gap.min() < 1e-5 * self.mesh.height
-        status = ContactStatus.all_open(self.candidates.size)
-        status = replace(status, kind=np.where(near, STICK, status.kind))
-        return replace(state, u=u, velocity=np.zeros_like(u), status=status, self_shear=None)
-
-    def energies(
-        self, evaluation: StepEvaluation, velocity: FloatArray, past: Past, rubber: StepEnd
-    ) -> StepEnergies:
-        """Energies of a solved step, and at its end with the nodal velocities (n, 2) [mm/s]."""
-        elements, forces, viscosity = self.elements, evaluation.elements, past.viscosity
-        assert forces is not None
-        viscous = 0.0
-        if viscosity is not None:
-            # Kelvin-Voigt dissipation S:(E - E_n)
-            S11, S22, S12 = viscosity.stress(forces.kinematics)
-            density = (S11**2 + S22**2 + 2.0 * S12**2) / viscosity.rate
-            viscous = float(np.sum(elements.weights * density))
-        return StepEnergies(
-            strain_energy=elements.strain_energy(forces.kinematics, rubber.stored),
-            kinetic=0.5 * float(np.sum(self.mass[:, None] * velocity**2)),
-            viscous=viscous,
-            rubber=elements.integral(rubber.viscous),
-            damage=elements.integral(rubber.damage),
-        )
-
-    def strains(self, evaluation: StepEvaluation) -> Strains:
-        """Deformation of an evaluated iterate."""
-        assert evaluation.elements is not None
-        kin = evaluation.elements.kinematics
-        return Strains(I1=kin.I1, J=kin.J, weights=self.elements.weights)
-
-    def fields(self, state: MechanicalState, T_C: FloatArray) -> CellFields:
-        """Stress and stretch of an accepted state."""
-        elements, rubber = self.elements, self.material(state, T_C)
-        kin = elements.kinematics(state.u)
-        softening = rubber.end(kin).softening
-        return CellFields(
-            cauchy=elements.cauchy(kin, Past(material=rubber)),
-            stretch=elements.largest_stretch(kin),
-            softening=None if softening is None else elements.mean(softening),
-        )
-
-    def bulk_power(self, heat: FloatArray | None, dt: float) -> FloatArray | None:
-        """Power of what became heat in the rubber in a step [N/mm^2], by node [mJ/s]."""
-        return None if heat is None else self.elements.nodal_integral(heat) / dt
-
-    def material(
-        self, state: MechanicalState, T_C: FloatArray | None, dt: float = 0.0
-    ) -> MaterialStep:
-        """The rubber in a step of length `dt` [s] from an accepted state.
-
-        `T_C` (n,) are the temperatures of that state [C].
-        """
-        if state.rubber is not None and T_C is not None:
-            T_C = T_C[self.mesh.cells].mean(axis=1)[:, None]
-        return self.elements.model.step(state.rubber, dt, T_C)
-
-    def step(self, state: MechanicalState, load: StepLoad) -> StepProblem:
-        """The nonlinear problem of one step from an accepted state."""
-        return StepProblem(self, state, load)
-
-    def gather(self, nodal: FloatArray) -> FloatArray:
-        """Sum nodal values (n, 2) into the equations, (size,)."""
-        return summed(
-            self.equation.ravel()[self._numbered],
-            nodal.ravel()[self._numbered],
-            self.pattern.size,
-        )
-
-    def scatter(self, x: FloatArray) -> FloatArray:
-        """Nodal values (n, 2) of an equation vector; zero where prescribed."""
-        return np.where(self.equation >= 0, x[self.equation], 0.0)
-
-    def gap(self, u: FloatArray) -> FloatArray:
-        """Distance of the candidates from the road, (m,) [mm]."""
-        return np.asarray(self.mesh.points[self.candidates, 1] + u[self.candidates, 1])
-
-    def contact_lengths(self, u: FloatArray, active: NDArray[np.bool_]) -> FloatArray:
-        """Current contact length of each candidate, (m,) [mm].
-
-        Half of each adjoining edge with both nodes in contact; a lone node has half of all its
-        edges' projections on the road.
-        """
-        mesh, boundary = self.mesh, self.mesh.boundary
-        x = mesh.points[boundary, 0] + u[boundary, 0]
-        half = np.where(mesh.joined, 0.5 * np.abs(np.diff(x)), 0.0)
-        on = np.zeros(boundary.size, dtype=bool)
-        on[mesh.is_free] = active
-        full = self._at_candidates(np.where(on[:-1] & on[1:], half, 0.0))
-        lone = self._at_candidates(half)
-        reference = self.boundary.length[mesh.is_free]
-        return np.where(full > 0.0, full, np.maximum(lone, 0.1 * reference))
-
-    def _at_candidates(self, halves: FloatArray) -> FloatArray:
-        """Sum of what the two edges beside each candidate hold, given by edge of the boundary."""
-        beside = np.concatenate([[0.0], halves]) + np.concatenate([halves, [0.0]])
-        return np.asarray(beside[self.mesh.is_free])
-
-
 class StepProblem:
     """Newton problem of one step (see `fem.newton.Problem`)."""
 
-    def __init__(self, system: BlockMechanics, state: MechanicalState, load: StepLoad) -> None:
+    def __init__(
+        self,
+        system: BlockEquations,
+        state: MechanicalState,
+        load: StepLoad,
+        material: MaterialStep,
+    ) -> None:
         self.system, self.state, self.load = system, state, load
-        self.past = Past(
-            viscosity=_viscosity(system, state, load),
-            material=system.material(state, load.T_C, load.dt),
-        )
+        self.past = Past(viscosity=_viscosity(system, state, load), material=material)
         self.frame = np.array([load.sweep / load.dt, 0.0])
         self.mass = system.mass if load.inertia else np.zeros_like(system.mass)
         self._latest: tuple[FloatArray, FloatArray, ElementForces] | None = None
@@ -388,7 +83,7 @@ class StepProblem:
         acceleration = (self.velocity(u) - self.state.velocity) / load.dt
         nodal += self.mass[:, None] * acceleration
         if load.raised is None:
-            nodal[:, 1] += load.force * system._top_load
+            nodal[:, 1] += load.force * system.top_load
         return np.asarray(nodal)
 
     def rubber_end(self, evaluation: StepEvaluation) -> StepEnd:
@@ -523,9 +218,9 @@ class StepProblem:
         system, elements = self.system, evaluation.elements
         assert elements is not None
         data, pairs = self._force_tangents(evaluation)
-        matrix = self._constrained(data, pairs, evaluation.status)
+        matrix = self.system.matrix(data, pairs, evaluation.status, self.load)
         step = system.solver.solve(matrix, -evaluation.residual)
-        held = self._held_equations(evaluation.status)
+        held = self.system.held(evaluation.status, self.load)
         # Gaps and slips close exactly, however roughly the system is solved.
         step[held] = -evaluation.residual[held] / system.elements.K_bulk
         du = system.scatter(step)
@@ -554,75 +249,20 @@ class StepProblem:
             change += on_nodes[system.candidates]
         return change
 
-    def _held_equations(self, status: ContactStatus) -> IntArray:
-        """Equations of a displacement: gaps (active), slips (sticking), platen (raised)."""
-        rows = self.system.equation[self.system.candidates]
-        held = np.concatenate([rows[status.active, 1], rows[status.sticking, 0]])
-        return held if self.load.raised is None else np.append(held, self.system.size - 1)
-
     def tangent(self, evaluation: StepEvaluation) -> csc_matrix:
         """Tangent of the residual, with the status asked for by the iterate."""
         data, pairs = self._force_tangents(evaluation)
-        return self._constrained(data, pairs, evaluation.status)
+        return self.system.matrix(data, pairs, evaluation.status, self.load)
 
     def _force_tangents(self, evaluation: StepEvaluation) -> tuple[FloatArray, FloatArray | None]:
         """Tangents of the nodal forces: matrix data of the block, and of the pairs (np, 6, 6)."""
         system, elements, pairs = self.system, evaluation.elements, self.load.pairs
         assert elements is not None
         data = system.pattern.sum(system.elements.tangent(elements))
-        inertia = np.repeat(self.mass / self.load.dt**2, 2)
-        equations = system.equation.ravel()
-        data[system._diagonal] += np.bincount(
-            equations[system._numbered], inertia[system._numbered], minlength=system.pattern.size
-        )
+        system.add_to_diagonal(data, self.mass / self.load.dt**2)
         if pairs is None or evaluation.pairs is None or not evaluation.pairs.pressed.any():
             return data, None
         return data, pair_tangents(pairs, evaluation.pairs)
-
-    def _constrained(
-        self, data: FloatArray, pairs: FloatArray | None, status: ContactStatus
-    ) -> csc_matrix:
-        """Matrix of the equations: force tangents with the rows of the contact status."""
-        matrix = self.system.pattern.matrix(self._with_contact_rows(data, status))
-        if pairs is None:
-            return matrix
-        return (matrix + self._pair_matrix(pairs, status)).tocsc()
-
-    def _pair_matrix(self, tangents: FloatArray, status: ContactStatus) -> csc_matrix:
-        """Tangents of self-contact (np, 6, 6) with the row operations of the road contact."""
-        system, pairs = self.system, self.load.pairs
-        assert pairs is not None
-        pressed = tangents.any(axis=(1, 2))
-        K = tangents[pressed]
-        equations = system.equation[pairs.nodes[pressed]].reshape(-1, 6)
-        row = np.repeat(equations, 6, axis=1).ravel()
-        column = np.tile(equations, (1, 6)).ravel()
-        kept = (row >= 0) & (column >= 0)
-        row, column, value = row[kept], column[kept], K.ravel()[kept]
-        rows = system.equation[system.candidates]
-        slipping, size = status.slipping, system.pattern.size
-        factor, partner = np.zeros(size), np.zeros(size, dtype=np.int64)
-        factor[rows[slipping, 1]] = (status.sense * self.load.mu)[slipping]
-        partner[rows[slipping, 1]] = rows[slipping, 0]
-        free = np.ones(size, dtype=bool)
-        free[self._held_equations(status)] = False
-        passed = factor[row] != 0.0
-        row_to = np.concatenate([row[free[row]], partner[row[passed]]])
-        column_to = np.concatenate([column[free[row]], column[passed]])
-        value_to = np.concatenate([value[free[row]], (factor[row] * value)[passed]])
-        return coo_matrix((value_to, (row_to, column_to)), shape=(size, size)).tocsc()
-
-    def _with_contact_rows(self, data: FloatArray, status: ContactStatus) -> FloatArray:
-        """Matrix data with friction rows, stick rows and gap rows."""
-        system, owner, data = self.system, self.system._owner, data.copy()
-        factor = np.where(status.slipping, status.sense * self.load.mu, 0.0)[owner]
-        data[system._slots_x] += factor * data[system._slots_y]
-        data[system._slots_x[status.sticking[owner]]] = 0.0
-        data[system._slots_y[status.active[owner]]] = 0.0
-        if self.load.raised is not None:
-            data[system._slots_platen] = 0.0
-        data[system._diagonal[self._held_equations(status)]] = system.elements.K_bulk
-        return data
 
     def step_limit(self, x: Iterate, direction: Iterate) -> float:
         """Step in which no deformation gradient changes by more than `STRAIN_LIMIT`."""
@@ -648,25 +288,9 @@ class StepProblem:
         )
 
 
-def _viscosity(system: BlockMechanics, state: MechanicalState, load: StepLoad) -> Viscosity | None:
+def _viscosity(system: BlockEquations, state: MechanicalState, load: StepLoad) -> Viscosity | None:
     """Kelvin-Voigt term of a damped step."""
     if load.damping is None:
         return None
     strain_n = system.elements.kinematics(state.u).green_lagrange
     return Viscosity(rate=load.damping, strain_n=strain_n)
-
-
-def inadmissible(status: ContactStatus) -> StepEvaluation:
-    """Evaluation of an iterate whose energy does not exist."""
-    empty = np.zeros(0)
-    return StepEvaluation(
-        merit=np.inf, settled=False, status=status, nodal=empty, residual=empty, elements=None
-    )
-
-
-def platen_displacement(mesh: BlockMesh, u: FloatArray) -> float:
-    """Vertical displacement of the top, mean over its length, positive downwards [mm].
-
-    The force is spread over the length alike, so that its work is force times this displacement.
-    """
-    return float(-(mesh.top_shares @ u[mesh.top, 1]))

@@ -81,8 +81,11 @@ class BlockMesh:
     def candidate_lengths(self) -> FloatArray:
         """Undeformed length of surface that each candidate stands for, (m,) [mm]."""
         edges = np.linalg.norm(np.diff(self.points[self.boundary], axis=0), axis=1)
-        half = np.where(self.joined, 0.5 * edges, 0.0)
-        beside = np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
+        return self.at_candidates(np.where(self.joined, 0.5 * edges, 0.0))
+
+    def at_candidates(self, halves: FloatArray) -> FloatArray:
+        """Sum of what the two edges beside each candidate hold, given by edge of `boundary`."""
+        beside = np.concatenate([[0.0], halves]) + np.concatenate([halves, [0.0]])
         return np.asarray(beside[self.is_free])
 
     @cached_property

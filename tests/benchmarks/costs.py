@@ -18,8 +18,8 @@ from scipy.sparse.linalg import splu
 from fem import newton
 from fem.heat.model import HeatModel
 from fem.heat.state import HeatLoad
+from fem.mechanics import BlockMechanics
 from fem.mechanics.elements import Q1P0Elements
-from fem.mechanics.step import BlockMechanics
 from fem.mesh.block import BlockMesh, block_mesh
 from fem.mesh.grading import NAMED_GRADINGS
 from fem.solvers.direct import SYMMETRIC

@@ -7,8 +7,8 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from fem import Case, newton, simulate
+from fem.mechanics import BlockMechanics
 from fem.mechanics.elements import Q1P0Elements
-from fem.mechanics.step import BlockMechanics
 from fem.mesh.block import block_mesh
 from fem.mesh.grading import NAMED_GRADINGS
 from fem.solvers.direct import SYMMETRIC

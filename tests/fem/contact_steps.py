@@ -6,8 +6,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fem import newton
+from fem.mechanics import BlockMechanics, StepLoad
 from fem.mechanics.elements import Q1P0Elements
-from fem.mechanics.step import BlockMechanics, StepLoad
 from fem.stepping.step_control import StepController, StepPlan, landed
 from materials import compound
 from tests.fem.small_blocks import uniform_block

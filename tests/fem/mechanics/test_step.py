@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 from contact.active_set import OPEN, SLIP, STICK, ContactStatus
-from fem.mechanics.step import Iterate, platen_displacement
+from fem.mechanics import Iterate, platen_displacement
 from fem.mesh.block import block_mesh
 from fem.mesh.grading import Grading
 from tests.fem.contact_steps import (

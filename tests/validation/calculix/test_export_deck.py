@@ -8,7 +8,7 @@ import pytest
 import treadfem
 from fem.case.case import Case
 from fem.case.errors import CaseError
-from fem.mechanics.step import BlockMechanics
+from fem.mechanics import BlockMechanics
 from fem.simulation import coupled_model
 from fem.stepping.model_parts import mesh_of
 from tests.validation.deck_reading import FACES, named, node_set, nodes, read_deck
@@ -107,7 +107,7 @@ def test_loads_are_those_of_the_simulation():
         node, component, value = line.split(",")
         assert int(component) == 2
         force[int(node) - 1] = float(value)
-    np.testing.assert_allclose(force, -5.0 * mechanics._top_load, atol=1e-10)
+    np.testing.assert_allclose(force, -5.0 * mechanics.top_load, atol=1e-10)
 
 
 @pytest.mark.parametrize(
