@@ -26,6 +26,9 @@ class StepLoad:
         Friction coefficient of the candidates [-].
     damping : (ne, 1) float array or None
         Stress per strain increment of the step, by element [N/mm^2]; None without damping.
+    damped_from : (n, 2) float array, optional
+        Displacements that the strain increments of the damping count from [mm]; those of the last
+        accepted step without it.
     pairs : Pairs or None
         Nodes and segments of the boundary that may meet; None without self-contact.
     T_C : (n,) float array or None
@@ -41,6 +44,7 @@ class StepLoad:
     force: float
     mu: FloatArray
     damping: FloatArray | None = None
+    damped_from: FloatArray | None = None
     pairs: Pairs | None = None
     T_C: FloatArray | None = None
     raised: float | None = None

@@ -292,5 +292,6 @@ def _viscosity(system: BlockEquations, state: MechanicalState, load: StepLoad) -
     """Kelvin-Voigt term of a damped step."""
     if load.damping is None:
         return None
-    strain_n = system.elements.kinematics(state.u).green_lagrange
+    u_n = state.u if load.damped_from is None else load.damped_from
+    strain_n = system.elements.kinematics(u_n).green_lagrange
     return Viscosity(rate=load.damping, strain_n=strain_n)

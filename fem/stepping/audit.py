@@ -28,7 +28,8 @@ class EnergyAudit:
     strain_energy, kinetic : float
         Stored now.
     snaps : float
-        Part of the viscous dissipation in steps that had no solution with less damping.
+        Part of the viscous dissipation in steps that had no solution with less damping; in relaxed
+        ones that is what their balance misses.
     created : float
         Energy that friction or viscosity gave in steps in which they should have taken it.
     capped, dissipated : float
@@ -126,11 +127,14 @@ def audited(
     dissipated = step.power * step.target.dt
     friction = float(np.sum(dissipated)) + step.self_friction
     viscous = energies.viscous
+    if step.relaxed:
+        stored = energies.strain_energy + energies.kinetic - audit.strain_energy - audit.kinetic
+        viscous = max(viscous, work - stored - friction - energies.rubber - energies.damage)
     return EnergyAudit(
         work_in=audit.work_in + work,
         friction=audit.friction + friction,
         viscous=audit.viscous + viscous,
-        snaps=audit.snaps + viscous * snaps,
+        snaps=audit.snaps + viscous * (snaps or step.relaxed),
         rubber=audit.rubber + energies.rubber,
         damage=audit.damage + energies.damage,
         strain_energy=energies.strain_energy,

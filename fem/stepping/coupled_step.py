@@ -95,6 +95,8 @@ class AcceptedStep:
         Largest penetration of the block into itself, relative to the local element size [-].
     energies : StepEnergies
         Energies of the block.
+    relaxed : bool
+        Whether it is the end of a continuation, which dissipated too (`fem.stepping.relaxation`).
     """
 
     before: CoupledState
@@ -111,6 +113,7 @@ class AcceptedStep:
     self_friction: float
     penetration: float
     energies: StepEnergies
+    relaxed: bool = False
 
     @property
     def solution(self) -> Iterate:
@@ -246,7 +249,7 @@ class CoupledModel:
 
         Passes over the friction coefficient and over the pairs of self-contact, each from the
         solution of the last. The first starts from the state, or from a `guess`: the same step
-        solved with other damping.
+        solved with other damping, from which the strains of the damping count then.
         """
         mu, pairs = state.mu, self._pairs(state, state.mechanics.u)
         if guess is not None:
@@ -258,6 +261,7 @@ class CoupledModel:
             force=target.force,
             mu=mu,
             damping=damping,
+            damped_from=None if guess is None else guess.after.mechanics.u,
             pairs=pairs,
             T_C=state.heat.T,
             raised=target.raised,
