@@ -5,14 +5,15 @@ import pytest
 
 from fem import Case, newton
 from fem.simulation import coupled_model
+from fem.stepping.audit import EnergyAudit, audited
 from fem.stepping.coupled_step import AcceptedStep, RejectedStep
 from fem.stepping.programme import programme
 from fem.stepping.relaxation import LAST_LEVEL, relaxed
 
 
 @pytest.fixture(scope="module")
-def sliding():
-    """Model, pressed state and target of a first sliding step, which has a solution undamped."""
+def pressed():
+    """Model, pressing step and target of a first sliding step, which has a solution undamped."""
     spec = {"cells_x": 12, "cells_y": 6, "smallest_x_mm": 1.6, "smallest_y_mm": 1.3}
     case = Case.from_dict(
         {
@@ -28,7 +29,14 @@ def sliding():
     model, (pressing, slide) = coupled_model(case), programme(case)
     step = model.advance(model.initial_state(), pressing.target(0.0, 1.0))
     assert isinstance(step, AcceptedStep)
-    return model, step.after, slide.target(0.0, 0.1)
+    return model, step, slide.target(0.0, 0.1)
+
+
+@pytest.fixture(scope="module")
+def sliding(pressed):
+    """Model, pressed state and target of the sliding step."""
+    model, step, target = pressed
+    return model, step.after, target
 
 
 def test_where_an_undamped_solution_exists_relaxation_ends_in_it(sliding):
@@ -72,7 +80,8 @@ def test_relaxation_ends_where_there_is_no_solution_and_counts_what_it_cost(slid
 
     stubborn = Stubborn()
     step, level = relaxed(stubborn, damped, 4.0)
-    assert stubborn.levels == [2.0, 1.0, 0.5]
+    # a quarter, a quarter of that in vain, and the same as before once more
+    assert stubborn.levels == [1.0, 0.25, 1.0]
     assert level == 1.0
     assert step.problem.load.damping is not None
     assert step.iterations > damped.iterations + 7
@@ -84,3 +93,19 @@ def test_the_last_solution_has_no_damping_at_all(sliding):
     step, level = relaxed(model, weak, LAST_LEVEL)
     assert level == 0.0
     assert step.problem.load.damping is None
+
+
+def test_a_step_that_needed_no_damping_releases_nothing_in_the_audit(pressed):
+    model, pressing, target = pressed
+    energies, mesh = pressing.energies, model.mechanics.mesh
+    before = EnergyAudit(
+        strain_energy=energies.strain_energy,
+        kinetic=energies.kinetic,
+        platen_force_x=float(pressing.evaluation.nodal[mesh.top, 0].sum()),
+        platen_force_y=pressing.target.force,
+    )
+    damped = model.advance(pressing.after, target, 4.0)
+    step, _ = relaxed(model, damped, 4.0)
+    work = audited(before, step, mesh).work_in
+    assert audited(before, damped, mesh).viscous > 0.02 * work
+    assert audited(before, step, mesh).snaps < 2e-3 * work
