@@ -12,9 +12,12 @@ system says (`PairMultipliers`), and pairs open by their sign: the forces of the
 iterate are, before convergence, the stiffness times the error of the positions, so that walls that
 meet along their length would open and close for ever. In a solution both are the same.
 
-Which segment a node meets is chosen outside the Newton iteration and judged by the *accepted*
-state: a node that is behind a segment there lies behind it through the material (a thin wedge
-between two faces looks locally just like a penetration) and cannot meet it.
+Friction has a status, too, that changes as on the road: a pair that sticks slips when its force by
+the linear system exceeds the limit, and one that slips sticks before it slips the other way. Where
+the sense of slip just follows the iterate, pairs that stick in the solution slip to and fro for
+ever.
+
+`contact.pair_search` says which segments a node may meet.
 
 References
 ----------
@@ -28,72 +31,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from materials.arrays import FloatArray, IntArray
 
-#: The cosine between the normals of a node and a segment that can meet is below this: they oppose
-#: each other. At the tip of a fold the boundary turns right round, so that the normal of one of the
-#: node's own segments counts. A margin here loses nodes beside a corner that the fold has closed
-#: on: they pass through at cosines of -0.1, deeper with every step.
-OPPOSING = 0.0
-#: Nodes this close to a segment along the boundary (in segments) do not meet it: only its own.
-#: A crease starts between the next nodes. If those pass through each other, the loop grows from
-#: node to node, and each one is behind the other face before it could meet it.
-NEIGHBOURS = 0
-#: Share of the local size by which a node may be behind a segment in the accepted state.
-BEHIND = 0.05
-#: Projections count on a segment extended by this share on both sides.
-OVERHANG = 0.02
-#: A closed pair is held until its projection leaves the segment by this share.
-HOLD = 0.1
 #: Tangential over normal stiffness [-]. Walls that meet along their length change between stick and
 #: slip for ever with 1. At the mean pressure a pair that sticks gives way by some thousandths of an
 #: element.
 SHEAR_SHARE = 0.02
-#: Penetration that may go unseen until the next step, relative to the local element size.
-UNSEEN = 0.005
-
-
-@dataclass(frozen=True, kw_only=True)
-class Boundary:
-    """The free boundary as a chain of nodes, of one curve or of several one after another.
-
-    Attributes
-    ----------
-    nodes : (m,) int array
-        Mesh nodes in order along the boundary.
-    orientation : int
-        +1 when the material lies to the left of the chain, -1 when to the right.
-    length : (m,) float array
-        Reference length each node stands for [mm].
-    size : (m,) float array
-        Local element size, which gaps are compared with [mm].
-    joined : (m - 1,) bool array
-        Whether a segment joins a node and the next one; False where one curve ends and another
-        begins.
-    """
-
-    nodes: IntArray
-    orientation: int
-    length: FloatArray
-    size: FloatArray
-    joined: NDArray[np.bool_]
-
-    @classmethod
-    def of(
-        cls,
-        nodes: IntArray,
-        orientation: int,
-        points: FloatArray,
-        size: FloatArray,
-        joined: NDArray[np.bool_] | None = None,
-    ) -> Boundary:
-        """Boundary of the reference coordinates `points` (n, 2) with local sizes (m,)."""
-        joined = np.ones(len(nodes) - 1, dtype=bool) if joined is None else joined
-        edges = joined * np.linalg.norm(np.diff(points[nodes], axis=0), axis=1)
-        halves = 0.5 * np.append(0.0, edges) + 0.5 * np.append(edges, 0.0)
-        return cls(nodes=nodes, orientation=orientation, length=halves, size=size, joined=joined)
+#: Share of the friction limit by which a pair may fall below it before it sticks again.
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,20 +108,18 @@ class PairForces:
         Compressive force [N/mm].
     shear : (k,) float array
         Tangential force, conjugate to the slip along the segment [N/mm].
-    pressed, slipping : (k,) bool arrays
-        Status asked for: whether the pair touches, and whether the friction limit is reached.
+    pressed, sticks : (k,) bool arrays
+        Status asked for: whether the pair touches, and whether friction holds it.
+    sense : (k,) float array
+        Sign of the slip asked for; 0 for pairs that do not slip [-].
     drag : (k,) float array
         Shear per normal force of pairs that slip, with its sign; 0 for others [-].
     slip : (k,) float array
         Slip along the segment since the accepted state [mm].
-    residual : (k, 6) float array
-        Forces on s, a, b to be added to the internal forces [N/mm].
-    of_gap : (k,) float array
-        Normal force that the gap would make with this status [N/mm].
-    mismatch : float
-        Largest penetration by which the normal forces differ from those [mm].
+    of_gap, of_slip : (k,) float arrays
+        Forces that gap and slip would make with this status [N/mm].
     settled : bool
-        Whether the pairs that touch are those that the forces were computed with.
+        Whether the status asked for is the one that the forces were computed with.
     grad_gap, grad_slip : (k, 6) float arrays
         Gradients of gap and slip.
     """
@@ -184,42 +128,57 @@ class PairForces:
     normal: FloatArray
     shear: FloatArray
     pressed: NDArray[np.bool_]
-    slipping: NDArray[np.bool_]
+    sticks: NDArray[np.bool_]
+    sense: FloatArray
     drag: FloatArray
     slip: FloatArray
-    residual: FloatArray
     of_gap: FloatArray
-    mismatch: float
+    of_slip: FloatArray
     settled: bool
     grad_gap: FloatArray
     grad_slip: FloatArray
 
     @property
+    def slipping(self) -> NDArray[np.bool_]:
+        """Whether the friction limit is reached, (k,)."""
+        return self.sense != 0.0
+
+    @property
+    def residual(self) -> FloatArray:
+        """Forces on s, a, b to be added to the internal forces, (k, 6) [N/mm]."""
+        return self.shear[:, None] * self.grad_slip - self.normal[:, None] * self.grad_gap
+
+    @property
     def pending(self) -> FloatArray:
-        """Forces on s, a, b that the gaps would make, less those there are, (k, 6) [N/mm]."""
+        """Forces on s, a, b by gaps and slips, less those there are, (k, 6) [N/mm]."""
         normal = self.of_gap - self.normal
-        return normal[:, None] * (self.drag[:, None] * self.grad_slip - self.grad_gap)
+        shear = self.of_slip - self.shear + self.drag * normal
+        return shear[:, None] * self.grad_slip - normal[:, None] * self.grad_gap
 
     @property
     def signature(self) -> bytes:
         """Name of the status asked for."""
-        return (self.pressed * (1 + self.slipping)).astype(np.int8).tobytes()
+        return (self.pressed * (2.0 + self.sense)).astype(np.int8).tobytes()
 
 
 @dataclass(frozen=True, kw_only=True)
 class PairMultipliers:
-    """Normal forces of the pairs by the linear system that gave an iterate, arrays (k,).
+    """Forces of the pairs by the linear system that gave an iterate, arrays (k,).
 
     Attributes
     ----------
-    normal : float array
-        Forces [N/mm]; a negative one asks for the pair to open.
+    normal, shear : float arrays
+        Forces [N/mm]; a negative normal force asks for the pair to open.
     pressed : bool array
         Pairs that the linear system held together.
+    sense : float array
+        Sign of the slip it let them have; 0 for pairs that it held along the segment.
     """
 
     normal: FloatArray
+    shear: FloatArray
     pressed: NDArray[np.bool_]
+    sense: FloatArray
 
     def carried(self, old: Pairs, new: Pairs) -> PairMultipliers:
         """The same forces for another set of pairs; none on pairs that `old` has not."""
@@ -230,7 +189,10 @@ class PairMultipliers:
             [places.get(tuple(row), none) for row in new.nodes.tolist()], dtype=np.int64
         )
         return PairMultipliers(
-            normal=np.append(self.normal, 0.0)[place], pressed=np.append(self.pressed, False)[place]
+            normal=np.append(self.normal, 0.0)[place],
+            shear=np.append(self.shear, 0.0)[place],
+            pressed=np.append(self.pressed, False)[place],
+            sense=np.append(self.sense, 0.0)[place],
         )
 
 
@@ -266,42 +228,94 @@ def pair_forces(
 
     Those of the multipliers, or of the gaps and slips without them.
     """
-    geometry = _geometry(pairs, x)
+    geometry = pair_geometry(pairs, x)
+    slip = pairs.L_n * (geometry.xi - pairs.xi_n)
+    of_gap = -pairs.stiffness * geometry.gap
+    of_slip = pairs.shear_n + pairs.shear_stiffness * slip
+    m = multipliers or _forces_of(of_gap, of_slip, pairs.mu)
+    pressed = np.where(m.pressed, m.normal > 0.0, of_gap > 0.0)
+    held = m.pressed & pressed
+    normal = np.where(held, m.normal, 0.0)
+    limit = pairs.mu * normal
+    sense = np.where(pressed, _next_sense(m, of_slip, limit), 0.0)
+    shear = np.where(m.sense == 0.0, np.clip(m.shear, -limit, limit), m.sense * limit)
+    sticks = pressed & (sense == 0.0) & (limit > 0.0)
+    return PairForces(
+        geometry=geometry,
+        normal=normal,
+        shear=np.where(held, shear, 0.0),
+        pressed=pressed,
+        sticks=sticks,
+        sense=sense,
+        drag=sense * pairs.mu,
+        slip=slip,
+        of_gap=np.where(pressed, of_gap, 0.0),
+        of_slip=np.where(sticks, of_slip, sense * limit),
+        settled=np.array_equal(pressed, m.pressed) and not np.any((sense != m.sense)[limit > 0.0]),
+        **_gradients(pairs, geometry),
+    )
+
+
+def _forces_of(of_gap: FloatArray, of_slip: FloatArray, mu: float) -> PairMultipliers:
+    """Forces and status that gaps and slips make."""
+    normal = np.maximum(of_gap, 0.0)
+    slips = np.abs(of_slip) > mu * normal
+    return PairMultipliers(
+        normal=normal,
+        shear=of_slip,
+        pressed=of_gap > 0.0,
+        sense=np.where(slips, np.sign(of_slip), 0.0),
+    )
+
+
+def _next_sense(m: PairMultipliers, of_slip: FloatArray, limit: FloatArray) -> FloatArray:
+    """Sense of slip that the forces ask for, 0 where they hold."""
+    # What the linear system held is judged by its force, what is new by its slip.
+    force = np.where(m.pressed & (m.sense == 0.0), m.shear, of_slip)
+    broken = np.where(np.abs(force) > limit, np.sign(force), 0.0)
+    kept = np.where(m.sense * of_slip > (1.0 - ROUNDING) * limit, m.sense, 0.0)
+    return np.where(m.pressed & (m.sense != 0.0), kept, broken)
+
+
+def _gradients(pairs: Pairs, geometry: SegmentGeometry) -> dict[str, FloatArray]:
+    """Gradients of gap and slip with respect to s, a, b, (k, 6)."""
     relative, edge = _shapes(geometry.xi)
     grad_gap = _spread(geometry.n, relative)
     ratio = (geometry.gap / geometry.L)[:, None]
     grad_xi = _spread(geometry.t, relative) + ratio * _spread(geometry.n, edge)
-    grad_slip = (pairs.L_n / geometry.L)[:, None] * grad_xi
-    slip = pairs.L_n * (geometry.xi - pairs.xi_n)
-    of_gap = -pairs.stiffness * geometry.gap
-    pressed, normal, settled = of_gap > 0.0, np.maximum(of_gap, 0.0), True
-    if multipliers is not None:
-        pressed = np.where(multipliers.pressed, multipliers.normal > 0.0, pressed)
-        normal = np.where(multipliers.pressed & pressed, multipliers.normal, 0.0)
-        settled = np.array_equal(pressed, multipliers.pressed)
-    of_slip = pairs.shear_n + pairs.shear_stiffness * slip
-    slipping, sense = np.abs(of_slip) > pairs.mu * normal, np.sign(of_slip)
-    shear = np.where(pressed, np.where(slipping, sense * pairs.mu * normal, of_slip), 0.0)
-    difference = np.where(pressed, np.abs(of_gap - normal) / pairs.stiffness, 0.0)
-    residual = -normal[:, None] * grad_gap + shear[:, None] * grad_slip
-    return PairForces(
-        geometry=geometry, normal=normal, shear=shear, pressed=pressed, slipping=slipping,
-        drag=np.where(pressed & slipping, sense * pairs.mu, 0.0), slip=slip, residual=residual,
-        of_gap=np.where(pressed, of_gap, 0.0), mismatch=float(difference.max(initial=0.0)),
-        settled=settled, grad_gap=grad_gap, grad_slip=grad_slip,
-    )  # fmt: skip
+    return {"grad_gap": grad_gap, "grad_slip": (pairs.L_n / geometry.L)[:, None] * grad_xi}
+
+
+def pair_mismatch(pairs: Pairs, forces: PairForces) -> float:
+    """Largest penetration or slip by which the forces differ from those of gaps and slips [mm]."""
+    gap = np.abs(forces.of_gap - forces.normal) / pairs.stiffness
+    slip = np.where(forces.sticks, np.abs(forces.of_slip - forces.shear), 0.0)
+    return float(np.maximum(gap, slip / pairs.shear_stiffness).max(initial=0.0))
 
 
 def multiplier_step(pairs: Pairs, forces: PairForces, du: FloatArray) -> PairMultipliers:
     """Change of the forces to those that a displacement `du` (n, 2) leads to, linearised."""
-    gap = np.sum(forces.grad_gap * du[pairs.nodes].reshape(-1, 6), axis=1)
-    normal = np.where(forces.pressed, forces.of_gap - pairs.stiffness * gap, 0.0)
-    return PairMultipliers(normal=normal - forces.normal, pressed=forces.pressed)
+    on_pairs = du[pairs.nodes].reshape(-1, 6)
+    gap = np.sum(forces.grad_gap * on_pairs, axis=1)
+    slip = np.sum(forces.grad_slip * on_pairs, axis=1)
+    normal = np.where(forces.pressed, forces.of_gap - pairs.stiffness * gap, 0.0) - forces.normal
+    held = np.where(forces.sticks, pairs.shear_stiffness * slip, forces.drag * normal)
+    return PairMultipliers(
+        normal=normal,
+        shear=forces.of_slip + held - forces.shear,
+        pressed=forces.pressed,
+        sense=forces.sense,
+    )
 
 
 def multipliers_after(forces: PairForces, step: PairMultipliers, alpha: float) -> PairMultipliers:
     """Forces after a share `alpha` of a step of `multiplier_step`."""
-    return PairMultipliers(normal=forces.normal + alpha * step.normal, pressed=step.pressed)
+    return PairMultipliers(
+        normal=forces.normal + alpha * step.normal,
+        shear=forces.shear + alpha * step.shear,
+        pressed=step.pressed,
+        sense=step.sense,
+    )
 
 
 def dissipation(pairs: Pairs, forces: PairForces) -> FloatArray:
@@ -332,13 +346,12 @@ def pair_tangents(pairs: Pairs, forces: PairForces) -> FloatArray:
     hess_xi = (
         _symmetric(N_s, N_0) / L**2 - _symmetric(T_0, grad_xi) / L - g / L**3 * _symmetric(N_0, T_0)
     )
-    pressed = forces.pressed
-    stiffness = np.where(pressed, pairs.stiffness, 0.0)[:, None, None]
+    stiffness = np.where(forces.pressed, pairs.stiffness, 0.0)[:, None, None]
     K = stiffness * _outer(forces.grad_gap, forces.grad_gap)
     K -= forces.normal[:, None, None] * hess_gap
     K += (forces.shear * pairs.L_n)[:, None, None] * hess_xi
-    sticks = (pressed & ~forces.slipping)[:, None, None]
-    K += np.where(sticks, SHEAR_SHARE * stiffness * _outer(forces.grad_slip, forces.grad_slip), 0.0)
+    along = np.where(forces.sticks, pairs.shear_stiffness, 0.0)[:, None, None]
+    K += along * _outer(forces.grad_slip, forces.grad_slip)
     # Sliding friction follows the normal force: d(shear) = -sign mu k d(gap).
     K -= forces.drag[:, None, None] * stiffness * _outer(forces.grad_slip, forces.grad_gap)
     return K
@@ -352,145 +365,7 @@ def _symmetric(a: FloatArray, b: FloatArray) -> FloatArray:
     return _outer(a, b) + _outer(b, a)
 
 
-def find_pairs(
-    boundary: Boundary,
-    x_n: FloatArray,
-    x: FloatArray,
-    *,
-    reach: float,
-    stiffness: float,
-    mu: float,
-    shear_n: FloatArray,
-) -> Pairs:
-    """Pairs that may come into contact between an accepted state and an iterate.
-
-    Parameters
-    ----------
-    boundary : Boundary
-        Chain of free boundary nodes.
-    x_n, x : (n, 2) float arrays
-        Coordinates in the accepted state and at the iterate [mm].
-    reach : float
-        Largest distance between node and segment node that is looked at [mm].
-    stiffness : float
-        Contact modulus [N/mm^2]: force per penetration relative to the local size, per length.
-    mu : float
-        Friction coefficient of rubber on rubber [-].
-    shear_n : (m,) float array
-        Tangential forces of the accepted state, by place in the chain [N/mm].
-
-    Returns
-    -------
-    Pairs
-        Of the segments with opposing normals, a projection inside, and in front of which the node
-        was: the nearest to each node, and those it touches. The nearest carries the tangential
-        force of the accepted state.
-    """
-    place, segment = _near(boundary, x, reach)
-    chain, n_n = x[boundary.nodes], x_n[boundary.nodes]
-    now = segment_geometry(chain[place], chain[segment], chain[segment + 1], boundary.orientation)
-    then = segment_geometry(n_n[place], n_n[segment], n_n[segment + 1], boundary.orientation)
-    size = np.minimum(
-        boundary.size[place], np.minimum(boundary.size[segment], boundary.size[segment + 1])
-    )
-    eligible = (
-        (_facing(boundary, chain, place, now.n) < OPPOSING)
-        & (np.abs(now.xi - 0.5) <= 0.5 + OVERHANG)
-        & (then.gap > -BEHIND * size)
-        & (np.abs(now.gap) < reach)
-    )
-    kept = np.flatnonzero(eligible)
-    kept = kept[np.lexsort((np.abs(now.gap[kept]), place[kept]))]
-    nearest = np.zeros(kept.size, dtype=bool)
-    nearest[np.unique(place[kept], return_index=True)[1]] = True
-    # In a crease a node touches the segments on both sides of it.
-    chosen = nearest | ((now.gap[kept] < 0.0) & (now.gap[kept] > -BEHIND * size[kept]))
-    kept, nearest = kept[chosen], nearest[chosen]
-    place, segment = place[kept], segment[kept]
-    return Pairs(
-        place=place,
-        nodes=np.column_stack(
-            [boundary.nodes[place], boundary.nodes[segment], boundary.nodes[segment + 1]]
-        ),
-        xi_n=then.xi[kept],
-        L_n=then.L[kept],
-        stiffness=stiffness * boundary.length[place] / size[kept],
-        shear_n=np.where(nearest, shear_n[place], 0.0),
-        mu=mu,
-        orientation=boundary.orientation,
-    )
-
-
-def _near(boundary: Boundary, x: FloatArray, reach: float) -> tuple[IntArray, IntArray]:
-    """Places of nodes and numbers of segments closer than `reach`, neighbours left out."""
-    chain = x[boundary.nodes]
-    close = cKDTree(chain).query_pairs(reach, output_type="ndarray")
-    close = close[np.abs(close[:, 0] - close[:, 1]) > NEIGHBOURS]
-    both = np.concatenate([close, close[:, ::-1]])
-    place = np.concatenate([both[:, 0], both[:, 0]])
-    segment = np.concatenate([both[:, 1] - 1, both[:, 1]])
-    apart = np.minimum(np.abs(place - segment), np.abs(place - segment - 1))
-    valid = (segment >= 0) & (segment < len(chain) - 1) & (apart > NEIGHBOURS)
-    valid[valid] = boundary.joined[segment[valid]]
-    code = np.unique(place[valid] * len(chain) + segment[valid])
-    return code // len(chain), code % len(chain)
-
-
-def _facing(
-    boundary: Boundary, chain: FloatArray, place: IntArray, normal: FloatArray
-) -> FloatArray:
-    """Smallest cosine between `normal` (k, 2) and the normals of the segments at nodes (k,)."""
-    e = np.diff(chain, axis=0)
-    n = boundary.orientation * np.column_stack([e[:, 1], -e[:, 0]])
-    n /= np.maximum(np.linalg.norm(n, axis=1), 1e-300)[:, None]
-    before, after = np.vstack([n[:1], n]), np.vstack([n, n[-1:]])
-    # The ends of a curve have one segment only.
-    ends = np.flatnonzero(~boundary.joined)
-    before[ends + 1], after[ends] = after[ends + 1], before[ends]
-    cosines = [np.einsum("ki,ki->k", side[place], normal) for side in (before, after)]
-    return np.minimum(*cosines)
-
-
-def followed(pairs: Pairs, found: Pairs, x: FloatArray, boundary: Boundary) -> Pairs:
-    """Pairs to go on with after a solution at coordinates `x`; `pairs` itself if they still hold.
-
-    Closed pairs whose projection has left the segment are dropped, and pairs of `found` that have
-    penetrated by more than `UNSEEN` of the local size are added. Pairs are otherwise kept, so
-    that a node at a kink does not change between two segments for ever.
-    """
-    used = _geometry(pairs, x)
-    left = (used.gap < 0.0) & (np.abs(used.xi - 0.5) > 0.5 + HOLD)
-    depth = -_geometry(found, x).gap / boundary.size[found.place]
-    known = {tuple(row) for row in pairs.nodes.tolist()}
-    new = np.array([tuple(row) not in known for row in found.nodes.tolist()], dtype=bool)
-    missed = (depth > UNSEEN) & new
-    if not left.any() and not missed.any():
-        return pairs
-    return _joined(pairs, ~left, found, missed)
-
-
-def _joined(a: Pairs, in_a: NDArray[np.bool_], b: Pairs, in_b: NDArray[np.bool_]) -> Pairs:
-    """Chosen pairs of two sets."""
-
-    def both(name: str) -> FloatArray:
-        return np.concatenate([getattr(a, name)[in_a], getattr(b, name)[in_b]])
-
-    return Pairs(
-        place=np.concatenate([a.place[in_a], b.place[in_b]]),
-        nodes=np.concatenate([a.nodes[in_a], b.nodes[in_b]]),
-        xi_n=both("xi_n"), L_n=both("L_n"), stiffness=both("stiffness"), shear_n=both("shear_n"),
-        mu=a.mu, orientation=a.orientation,
-    )  # fmt: skip
-
-
-def _geometry(pairs: Pairs, x: FloatArray) -> SegmentGeometry:
+def pair_geometry(pairs: Pairs, x: FloatArray) -> SegmentGeometry:
+    """Nodes and segments of the pairs at coordinates `x` (n, 2) [mm]."""
     s, a, b = (x[pairs.nodes[:, i]] for i in range(3))
     return segment_geometry(s, a, b, pairs.orientation)
-
-
-def pair_penetration(pairs: Pairs, x: FloatArray, boundary: Boundary) -> float:
-    """Largest penetration of the pairs relative to the local element size [-]."""
-    if pairs.place.size == 0:
-        return 0.0
-    gap = _geometry(pairs, x).gap
-    return float(np.max(np.maximum(-gap, 0.0) / boundary.size[pairs.place], initial=0.0))

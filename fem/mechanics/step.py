@@ -9,12 +9,14 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
+from contact.pair_search import Boundary
 from contact.self_contact import (
     PairForces,
     Pairs,
     multiplier_step,
     multipliers_after,
     pair_forces,
+    pair_mismatch,
     pair_tangents,
 )
 from fem.mechanics.elements import ElementForces, Past, Viscosity
@@ -127,9 +129,11 @@ class StepProblem:
         merit = max(np.abs(residual).max(), mismatch) / system.tolerance
         settled = not first and status.same_as(x.status)
         if pairs is not None:
-            merit = max(merit, pairs.mismatch * system.elements.K_bulk / system.tolerance)
+            assert self.load.pairs is not None
+            off = pair_mismatch(self.load.pairs, pairs)
+            merit = max(merit, off * system.elements.K_bulk / system.tolerance)
             settled = settled and pairs.settled
-            if pairs.mismatch > 0.0:
+            if off > 0.0:
                 of_gaps = nodal + self._pending(pairs)
                 forces = self.contact_forces(x.u, of_gaps)
                 residual = self._residual(of_gaps, forces, status, self._raised(x.u))

@@ -17,15 +17,9 @@ from contact.conductance import GapConductance
 from contact.friction import ThermalFriction
 from contact.interface import InterfaceState
 from contact.overlap import crossing_depth
+from contact.pair_search import find_pairs, followed, pair_penetration
 from contact.partition import HeatPartition
-from contact.self_contact import (
-    Pairs,
-    dissipation,
-    find_pairs,
-    followed,
-    heat_sources,
-    pair_penetration,
-)
+from contact.self_contact import Pairs, dissipation, heat_sources
 from fem import newton
 from fem.case import MOST_PASSES
 from fem.heat import HeatLoad, HeatModel, HeatState

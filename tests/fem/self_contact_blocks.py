@@ -4,7 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contact.self_contact import dissipation, find_pairs, followed, pair_penetration
+from contact.pair_search import find_pairs, followed, pair_penetration
+from contact.self_contact import dissipation
 from fem import newton
 from fem.mechanics.state import MechanicalState
 from fem.simulation import SELF_CONTACT_STIFFNESS
