@@ -14,6 +14,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from calibration.data import Table, read_table
+from calibration.partition.loading import loading_keys
 from fem.case import Case, CaseError
 from fem.results import EDGE_ZONE, interior_peak
 from materials.arrays import FloatArray
@@ -162,12 +163,7 @@ def _check_loading(table: Table, pressure: str, case: Case) -> None:
     for _, rows in _groups(table, [pressure, VELOCITY]):
         first = int(rows[0])
         try:
-            case.with_overrides(
-                {
-                    "loading.mean_pressure_N_per_mm2": float(p[first]),
-                    "loading.velocity_mm_per_s": float(v[first]),
-                }
-            )
+            case.with_overrides(loading_keys(case, float(p[first]), float(v[first])))
         except CaseError as error:
             column = VELOCITY if "velocity" in error.key else pressure
             table.refuse_at(first, column, error.found, error.expected)

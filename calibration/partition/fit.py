@@ -30,6 +30,7 @@ import pandas as pd
 
 from calibration.fitting import FitResult, Problem, fit
 from calibration.partition.data import Condition, PartitionData, ProfileUse, read_partition_data
+from calibration.partition.loading import refuse_event
 from calibration.partition.simulation_store import SimulationStore
 from calibration.partition.slides import (
     SMALLEST,
@@ -102,7 +103,7 @@ def fit_partition(
         See `read_partition_data`.
     case : Case
         The block that slid. Its pressure, velocity and partition law are replaced; the cap and all
-        the rest count.
+        the rest count. Of an event the end of the last contact is what was measured.
     store : SimulationStore
         Where simulations are kept.
     profile : {"whole", "peak"}
@@ -142,7 +143,8 @@ def fit_partition(
 
 
 def _check_case(case: Case) -> None:
-    """Refuse a case whose block cannot warm up, whatever the partition."""
+    """Refuse a case whose block cannot warm up, or whose event no measured slide stands for."""
+    refuse_event(case)
     if case.heat.partition.cap < SMALLEST:
         raise CaseError(
             file=case.source,

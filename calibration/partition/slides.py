@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from calibration.partition.data import Condition
+from calibration.partition.loading import loading_keys
 from calibration.partition.simulation_store import SimulationStore, Slide
 from contact.interface import InterfaceState
 from contact.partition import HeatPartition
@@ -317,8 +318,7 @@ class PartitionModel:
         return self.case.with_overrides(
             {
                 "block.rigid": rigid,
-                "loading.mean_pressure_N_per_mm2": trial.platen,
-                "loading.velocity_mm_per_s": trial.condition.velocity,
+                **loading_keys(self.case, trial.platen, trial.condition.velocity),
                 "heat.partition": partition_table(trial.law),
                 "output.snapshots": 1,
                 "output.vtu": False,

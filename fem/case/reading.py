@@ -178,7 +178,7 @@ def _set(source: Source, dotted: str, value: Any) -> None:
             table = _item(source, table, sections[: depth + 1])
             continue
         inner = table.get(section)
-        if isinstance(inner, list):
+        if isinstance(inner, list | tuple):
             table[section] = table = list(inner)
             continue
         # A text gives way to a table: block.mesh.cells_x after block.mesh = "default".
@@ -189,17 +189,28 @@ def _set(source: Source, dotted: str, value: Any) -> None:
     if (key == "parameters" or dotted == "block.file") and isinstance(value, str):
         # A reference given on the command line is relative to where the command runs.
         value = str(expanded(value, "--set", dotted).absolute())
-    table[key] = value
+    if isinstance(table, list):
+        table[_number(source, table, [*sections, key])] = value
+    else:
+        table[key] = value
     source.origins[tuple(dotted.split("."))] = f"{source.file} (overridden)"
 
 
 def _item(source: Source, items: list[Any], location: list[str]) -> Table:
     """A table of an array of tables, by its number; the array gets a copy of it."""
+    number = _number(source, items, location)
+    if not isinstance(items[number], dict):
+        _raise(source.file, ".".join(location), describe(items[number]), "a table")
+    items[number] = item = dict(items[number])
+    return item
+
+
+def _number(source: Source, items: list[Any], location: list[str]) -> int:
+    """Place in an array that a key names."""
     number = location[-1]
     if not number.isdecimal() or int(number) >= len(items):
         _raise(source.file, ".".join(location), number, f"a number from 0 to {len(items) - 1}")
-    items[int(number)] = item = dict(items[int(number)])
-    return item
+    return int(number)
 
 
 def _drop_replaced(tables: Table, dotted: str) -> None:

@@ -93,7 +93,7 @@ def _advice(
     for section, info in root.model_fields.items():
         model = _table_model(info.annotation)
         known = {i.alias or n for n, i in model.model_fields.items()} if model else set()
-        if key in known:
+        if key in known and section not in location:
             return f"{key} in [{section}]"
     return f"one of {', '.join(names)}"
 

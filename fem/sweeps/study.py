@@ -201,10 +201,16 @@ def _folder_names(overrides: list[dict[str, Any]], names: Mapping[str, str]) -> 
 
 
 def _folder_name(overrides: Mapping[str, Any], names: Mapping[str, str]) -> str:
-    words = [f"{names.get(key, key.split('.')[-1])}_{value}" for key, value in overrides.items()]
+    words = [f"{names.get(key) or _last(key)}_{value}" for key, value in overrides.items()]
     # A name that begins with a letter or digit is neither hidden nor an option nor a formula.
     name = re.sub(r"[^A-Za-z0-9._-]+", "-", "__".join(words)).lstrip("._-") or "base"
     return name if len(name) <= _LONGEST_NAME else _marked(name, name)
+
+
+def _last(key: str) -> str:
+    """The end of a dotted key; of one inside an array with the number of its table."""
+    *_, number, last = ["", *key.split(".")]
+    return f"{number}.{last}" if number.isdecimal() else last
 
 
 def _marked(name: str, content: str) -> str:

@@ -92,7 +92,10 @@ def grid_values(case: StudyCase, grid: Sequence[str]) -> dict[str, Any]:
 def _resolved(tables: Mapping[str, Any], dotted: str) -> Any:
     value: Any = tables
     for part in dotted.split("."):
-        value = value.get(part) if isinstance(value, Mapping) else None
+        if isinstance(value, list | tuple):
+            value = value[int(part)] if part.isdecimal() and int(part) < len(value) else None
+        else:
+            value = value.get(part) if isinstance(value, Mapping) else None
     return value
 
 

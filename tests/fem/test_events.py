@@ -296,7 +296,6 @@ def test_a_block_that_is_held_sticks():
 @pytest.mark.parametrize("after", [6, 25, 40])
 def test_an_event_is_resumed_to_the_same_result(after, tmp_path):
     case = event(PRESS, slide(300.0, distance_mm=1.0), LIFT, loading={"repeat": 2})
-    case = case.with_overrides({"output.checkpoint_s": 0.0})
     whole, seen, path = simulate(case), [], tmp_path / "checkpoint.npz"
 
     def stop(report):

@@ -5,7 +5,7 @@
 
 from tests.wrong_inputs.case_ranges import RANGES
 from tests.wrong_inputs.cases import LOADING, SET_SYNTAX, WRONG_CASES
-from tests.wrong_inputs.commands import EXPORTS, RIGS, STUDIES
+from tests.wrong_inputs.commands import EVENTS_OF_SLIDES, EXPORTS, RIGS, STUDIES
 from tests.wrong_inputs.events import EVENTS
 from tests.wrong_inputs.measured import MEASURED
 from tests.wrong_inputs.memory import MEMORY
@@ -22,5 +22,5 @@ __all__ = ["LOADING", "UNUSUAL_INPUTS", "WRONG_INPUTS", "WrongInput"]
 WRONG_INPUTS = [
     *map(of_case, [*WRONG_CASES, *RANGES, *EVENTS, *SIGNALS, *MEMORY, *SET_SYNTAX]),
     *(UNITS + MEASURED + READING + RIGS + STUDIES + EXPORTS + MEMORY_TESTS),
-    *(MESH_FILES + OUTLINES),
+    *(MESH_FILES + OUTLINES + EVENTS_OF_SLIDES),
 ]

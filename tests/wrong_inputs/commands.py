@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 
 from tests.wrong_inputs.cases import LOADING
+from tests.wrong_inputs.events import GOOD as EVENT
+from tests.wrong_inputs.events import PRESS, SLIDE, event
 from tests.wrong_inputs.rows import WrongInput, rig, study
 
 RIGS = [
@@ -46,7 +48,44 @@ STUDIES = [
         "solver.heat_step_mm",
         "days on one core",
     ),
+    *(
+        study(f"phase {what}", f'base = "event.toml"\n[grid]\n"loading.{key}" = [{value}]\n', *said)
+        for what, key, value, *said in (
+            ("that is not there", "phase.7.time_s", 1.0, "phase.7: found 7", "from 0 to 2"),
+            ("by name", "phase.slide.time_s", 1.0, "found slide", "a number from 0 to 2"),
+            ("in the plural", "phases.1.time_s", 1.0, "loading.phases: found an unknown", "phase"),
+            ("with a key of another kind", "phase.0.velocity_mm_per_s", 1.0, "kind, mean_pressure"),
+            ("of two lengths", "phase.1.time_s", 1.0, "found both of distance_mm and time_s"),
+            ("that is a number", "phase.1", 3, "loading.phase.1: found 3", '"press", "slide"'),
+            ("of no slide", "velocity_mm_per_s", 1.0, "none beside [[loading.phase]]"),
+        )
+    ),
     study("base that is no file", 'base = "nowhere.toml"\n', "nowhere.toml", "no such file"),
+]
+
+_PEAKS = "mean_pressure_N_per_mm2,v_mm_per_s,T_max_C\n0.2,300,35\n0.4,300,36\n"
+_FASTER = SLIDE.replace("300.0", "600.0")
+_RECORD = 'kind = "record"\nfile = "signals.csv"\n'
+_SIGNALS = "time_s,velocity_mm_per_s,mean_pressure_N_per_mm2\n0,300,0.2\n1,300,0.2\n"
+#: Events that no measured slide can stand for.
+EVENTS_OF_SLIDES = [
+    WrongInput(
+        kind=f"partition: {what}",
+        words=("calibrate", "partition", "t.csv", "--case", "event.toml", "-o", "out"),
+        files={"event.toml": event(*phases), "t.csv": _PEAKS, "signals.csv": _SIGNALS},
+        expected=("event.toml: loading.phase.", *said),
+    )
+    for what, phases, *said in (
+        ("two speeds", (PRESS, SLIDE, _FASTER), "2.velocity", "600.0 after 300.0", "one speed"),
+        (
+            "two pressures",
+            (PRESS, SLIDE, PRESS.replace("0.25", "0.3"), SLIDE),
+            "2.mean_pressure",
+            "0.3 after 0.25",
+            "one pressure",
+        ),
+        ("a record", (_RECORD,), '0.kind: found "record"', "press and slide"),
+    )
 ]
 
 EXPORTS = [
@@ -61,6 +100,12 @@ EXPORTS = [
         words=("export", "case.toml", "-o", "out.inp"),
         files={"case.toml": "[rubber]\nmullins = {r = 2.0, m_N_per_mm2 = 0.1}\n" + LOADING},
         expected=("rubber.mullins", "rubber that remembers", "an elastic rubber"),
+    ),
+    WrongInput(
+        kind="export: an event",
+        words=("export", "event.toml", "-o", "out.inp"),
+        files={"event.toml": EVENT},
+        expected=("event.toml: loading.phase: found an event of 3 phases", "one slide"),
     ),
     WrongInput(
         kind="check: device",

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tests.wrong_inputs.cases import LOADING, SET_SYNTAX, WrongCase
+from tests.wrong_inputs.events import GOOD as EVENT
 
 Content = str | bytes | Callable[[Path], object]
 
@@ -82,7 +83,7 @@ def rig(kind: str, content: Content, *expected: str) -> WrongInput:
 
 
 def study(kind: str, content: str, *expected: str) -> WrongInput:
-    files = {"study.toml": content, "case.toml": LOADING}
+    files = {"study.toml": content, "case.toml": LOADING, "event.toml": EVENT}
     return WrongInput(kind=f"study: {kind}", words=SWEEP, files=files, expected=expected)
 
 

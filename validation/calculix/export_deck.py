@@ -76,9 +76,13 @@ def input_deck(case: Case, options: DeckOptions | None = None) -> str:
     Raises
     ------
     CaseError
-        If CalculiX has no such rubber, or the block is rigid.
+        If CalculiX has no such rubber, the block is rigid, or the case is an event of phases.
     """
     options = options or DeckOptions()
+    if case.loading.phase:
+        found = f"an event of {len(case.loading.phase)} phases"
+        expected = "one slide (mean_pressure_N_per_mm2, velocity_mm_per_s, distance_mm)"
+        raise CaseError(file=case.source, key="loading.phase", found=found, expected=expected)
     if case.block.rigid:
         raise CaseError(
             file=case.source,

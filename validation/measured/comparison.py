@@ -178,7 +178,8 @@ def _variants(cases: list[Case]) -> list[str]:
     told_apart = [
         key
         for key in shared
-        if key not in (_PRESSURE, _VELOCITY, _START)
+        if key != _START
+        and not _is_condition(key)
         and not key.startswith("output.")
         and any(other[key] != flat[0][key] for other in flat)
     ]
@@ -188,9 +189,17 @@ def _variants(cases: list[Case]) -> list[str]:
     ]
 
 
+def _is_condition(key: str) -> bool:
+    """Whether a key is the pressure or the velocity, of the slide or of a phase."""
+    section, *_, last = key.split(".")
+    return section == "loading" and f"{section}.{last}" in (_PRESSURE, _VELOCITY)
+
+
 def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for key, value in table.items():
+        if isinstance(value, tuple) and value and isinstance(value[0], Mapping):
+            value = dict(enumerate(value))
         if isinstance(value, Mapping):
             flat |= _flat(value, f"{prefix}{key}.")
         else:

@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 
 from calibration.partition.fit import fit_partition
+from calibration.partition.loading import loading_keys
 from calibration.partition.simulation_store import SimulationStoppedError, SimulationStore
 from contact import HeatPartition
 from fem import simulate
@@ -218,6 +219,38 @@ def test_second_call_makes_no_simulation(tmp_path):
     again = fit_partition(pd.DataFrame(rows), case, SimulationStore(tmp_path, 1))
     assert again.simulated == 0
     assert again.result.values == first.result.values
+
+
+def event_of(*, repeat=2, rigid=False):
+    """Contacts of 1 mm with a pause between them, and after the last one."""
+    phases = [
+        {"kind": "press", "mean_pressure_N_per_mm2": 0.3, "time_s": 1e-3},
+        {"kind": "slide", "velocity_mm_per_s": -300.0, "distance_mm": 1.0},
+        {"kind": "lift", "time_s": 0.01},
+    ]
+    block = {"mesh": "coarse", "rigid": rigid}
+    return Case.from_dict({"block": block, "loading": {"repeat": repeat, "phase": phases}})
+
+
+def test_the_slides_of_an_event_get_the_measured_pressure_and_speed_and_end_on_the_road():
+    case = event_of()
+    keys = loading_keys(case, 0.2, 50.0)
+    loading = case.with_overrides(keys).loading
+    kinds = [phase.kind for phase in loading.phases]
+    assert kinds == ["press", "slide", "lift", "press", "slide"]
+    assert {phase.mean_pressure_N_per_mm2 for phase in loading.phases[::3]} == {0.2}
+    assert {phase.velocity_mm_per_s for phase in loading.phases[1::3]} == {-50.0}
+    assert loading.repeat == 1
+
+
+def test_law_comes_back_from_the_end_of_the_last_contact_of_an_event(tmp_path):
+    case, rows = event_of(rigid=True), []
+    for p in (0.2, 0.4):
+        contacts = simulate(case.with_overrides({"loading.phase.0.mean_pressure_N_per_mm2": p}))
+        T_max = contacts.contacts["T_max_C"].iloc[-1]
+        rows.append({"mean_pressure_N_per_mm2": p, "v_mm_per_s": 300.0, "T_max_C": T_max})
+    store = SimulationStore(tmp_path, 1)
+    check_recovered(fit_partition(pd.DataFrame(rows), case, store).result, 1e-2)
 
 
 def test_simulations_side_by_side_and_kept_ones_are_the_same_numbers(tmp_path):

@@ -13,6 +13,7 @@ import pytest
 import treadfem
 from fem import simulate
 from fem.case.errors import CaseError
+from fem.results.result import Result
 from fem.sweeps import case as sweep_case
 from fem.sweeps import workers as sweep_workers
 from fem.sweeps.progress import SweepBar, closing_line, time_left
@@ -150,6 +151,58 @@ def test_key_without_a_value_in_a_case_is_empty():
         "friction.mu": None,
         "loading.distance_mm": 120.0,
     }
+
+
+EVENT = """
+[block]
+rigid = true
+mesh = "coarse"
+[output]
+figures = false
+vtu = false
+[loading]
+[[loading.phase]]
+kind = "press"
+mean_pressure_N_per_mm2 = 0.25
+time_s = 1e-3
+[[loading.phase]]
+kind = "slide"
+velocity_mm_per_s = 300.0
+distance_mm = 2.0
+[[loading.phase]]
+kind = "slide"
+velocity_mm_per_s = 100.0
+distance_mm = 1.0
+[[loading.phase]]
+kind = "lift"
+time_s = 0.01
+"""
+
+
+def test_phases_of_an_event_are_varied_by_their_number(tmp_path, monkeypatch):
+    """A column for each key of a phase, filled also where only another case sets it."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case.toml").write_text(EVENT)
+    keys = [f"loading.phase.{number}.velocity_mm_per_s" for number in (1, 2)]
+    (tmp_path / "study.toml").write_text(
+        f'base = "case.toml"\n[grid]\n"{keys[0]}" = [300.0, 600.0]\n"loading.repeat" = [1, 2]\n'
+        f'[[case]]\n"{keys[1]}" = 50.0\n[[case]]\n"friction.law" = "exponential"\n'
+    )
+    sweep("study.toml", "out", workers=1)
+    table = rows()
+    assert [row["status"] for row in table] == ["ok"] * 8
+    found = {(row[keys[0]], row["loading.repeat"], row[keys[1]]) for row in table}
+    assert len(found) == 8
+    assert {row[keys[1]] for row in table} == {"50.0", "100.0"}
+    assert "1.velocity_mm_per_s_600.0__repeat_2__2.velocity_mm_per_s_50.0" in {
+        row["case"] for row in table
+    }
+    contacts = [len(Result.read(Path("out/runs") / row["case"]).contacts) for row in table]
+    assert contacts == [int(row["loading.repeat"]) for row in table]
+    before = {row["case"]: row["T_max_C"] for row in table}
+    state = sweep("study.toml", "out", workers=1, resume=True)
+    assert state.all_ok
+    assert {row["case"]: row["T_max_C"] for row in rows()} == before
 
 
 def test_rows_appear_as_cases_finish(study, simulation):

@@ -20,7 +20,13 @@ from tests.made_up_result import made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
 from validation.measured.compare_command import write_comparison
-from validation.measured.comparison import compare, simulated_runs, statistics, surface_of
+from validation.measured.comparison import (
+    _variants,
+    compare,
+    simulated_runs,
+    statistics,
+    surface_of,
+)
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
 from validation.measured.matching import matched
 from validation.measured.measurements import read_measurements
@@ -247,6 +253,21 @@ def test_variants_are_what_differs_between_the_runs(results):
     assert set(runs["variant"]) == {"law huemer", "law exponential"}
     assert set(runs["v_mm_per_s"]) == {50.0}
     assert set(runs["compound"]) == {YEOH}
+
+
+def test_events_of_other_speeds_are_one_variant_and_those_of_other_rests_are_not(tmp_path):
+    phases = [
+        {"kind": "press", "mean_pressure_N_per_mm2": 0.25},
+        {"kind": "slide", "velocity_mm_per_s": 300.0, "distance_mm": 2.0},
+        {"kind": "lift", "time_s": 0.1},
+    ]
+    event = Case.from_dict({"loading": {"phase": phases}})
+
+    def variants(key, values):
+        return _variants([event.with_overrides({f"loading.phase.{key}": v}) for v in values])
+
+    assert variants("1.velocity_mm_per_s", (50.0, 300.0)) == ["one variant"] * 2
+    assert variants("2.time_s", (0.1, 0.2)) == ["time_s 0.1", "time_s 0.2"]
 
 
 def test_single_run_can_be_compared_with(results):
