@@ -7,7 +7,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from calibration.conductance import HeatingRecord
 from calibration.fitting import FitResult
@@ -15,7 +14,7 @@ from calibration.friction import FrictionData
 from calibration.memory import Histories, Moduli
 from calibration.rubber import StressData
 from calibration.shifting import MasterCurve
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray, IndexArray
 
 # Okabe and Ito's colours, which readers with any colour vision can tell apart
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -143,7 +142,7 @@ def plot_friction(result: FitResult, data: FrictionData) -> Figure:
     return figure
 
 
-def _shown(count: int) -> NDArray[np.intp]:
+def _shown(count: int) -> IndexArray:
     """Which of so many points are drawn: all, or some evenly spread; more cannot be told apart."""
     return np.unique(np.linspace(0, count - 1, min(count, _MOST_DOTS)).round().astype(np.intp))
 
@@ -154,7 +153,7 @@ def _groups(p: FloatArray) -> FloatArray:
     return levels if levels.size <= 7 else np.quantile(p, [0.1, 0.3, 0.5, 0.7, 0.9])
 
 
-def _nearest(p: FloatArray, i: int) -> NDArray[np.bool_]:
+def _nearest(p: FloatArray, i: int) -> BoolArray:
     """Points that belong to the i-th of the five representative pressures."""
     return np.asarray(np.argmin(np.abs(p[:, None] - _groups(p)), axis=1) == i)
 

@@ -12,13 +12,12 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data import DataError, LeftOut, Table, left_out, read_table
 from calibration.fitting import FitResult, Problem, fit
 from calibration.shifting import MasterCurve, is_sweep_table, shift_sweeps
 from fem.files import version_of
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IntArray
 from materials.wlf import WLF
 
 SHIFT_COLUMNS = ("T_C", "log10_aT")
@@ -47,7 +46,7 @@ class ShiftFactors:
 
     T: FloatArray
     log_aT: FloatArray
-    rows: NDArray[np.int64]
+    rows: IntArray
     out: tuple[LeftOut, ...]
     source: Table | None = None
     master: MasterCurve | None = None
@@ -107,12 +106,10 @@ def fit_wlf(
     >>> round(fit_wlf(table, T_ref_C=20.0).values["d1"], 3)
     8.0
     """
-    if isinstance(table, ShiftFactors):
-        data = table
-    else:
-        data = read_shift_factors(
-            table, T_ref_C=T_ref_C, window=window, other_sign=other_sign, **shifting
-        )
+    if not isinstance(table, ShiftFactors):
+        options = {"window": window, "other_sign": other_sign, **shifting}
+        table = read_shift_factors(table, T_ref_C=T_ref_C, **options)
+    data = table
     T, log_aT = data.T, data.log_aT
     reference = float(T[np.argmin(np.abs(log_aT))]) if T_ref_C is None else float(T_ref_C)
     _require_factors(data, reference)

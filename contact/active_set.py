@@ -14,9 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 
 OPEN, STICK, SLIP = 0, 1, 2
 
@@ -43,17 +42,17 @@ class ContactStatus:
         return cls(kind=np.full(count, OPEN), sense=np.ones(count))
 
     @property
-    def active(self) -> NDArray[np.bool_]:
+    def active(self) -> BoolArray:
         """Nodes in contact, (m,)."""
         return self.kind != OPEN
 
     @property
-    def slipping(self) -> NDArray[np.bool_]:
+    def slipping(self) -> BoolArray:
         """Nodes in contact that slip, (m,)."""
         return self.kind == SLIP
 
     @property
-    def sticking(self) -> NDArray[np.bool_]:
+    def sticking(self) -> BoolArray:
         """Nodes in contact that stick, (m,)."""
         return self.kind == STICK
 

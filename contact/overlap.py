@@ -7,14 +7,13 @@ of the boundary across the next but one, which no search for pairs can prevent.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 
 
 def crossing_segments(
-    chain: FloatArray, joined: NDArray[np.bool_] | None = None
+    chain: FloatArray, joined: BoolArray | None = None
 ) -> tuple[IntArray, IntArray]:
     """Pairs of segments of a boundary that cut each other.
 
@@ -43,9 +42,7 @@ def crossing_segments(
     return i[cut], j[cut]
 
 
-def crossing_depth(
-    chain: FloatArray, size: FloatArray, joined: NDArray[np.bool_] | None = None
-) -> float:
+def crossing_depth(chain: FloatArray, size: FloatArray, joined: BoolArray | None = None) -> float:
     """Depth to which a boundary cuts itself, relative to the local element size [-].
 
     Parameters
@@ -69,9 +66,7 @@ def crossing_depth(
     return float(np.min(depths, axis=0).max(initial=0.0))
 
 
-def _sides_differ(
-    start: FloatArray, edge: FloatArray, p: FloatArray, q: FloatArray
-) -> NDArray[np.bool_]:
+def _sides_differ(start: FloatArray, edge: FloatArray, p: FloatArray, q: FloatArray) -> BoolArray:
     """Whether points p and q lie on different sides of lines along `edge`, all (k, 2)."""
     return np.asarray(_cross(edge, p - start) * _cross(edge, q - start) < 0.0)
 

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from contact.interface import InterfaceState
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 from materials.checks import (
     require_between,
     require_finite,
@@ -76,7 +76,7 @@ class HeatPartition:
         """Partition kappa [-] at a state of the interface."""
         return self(self.governing(state))
 
-    def capped(self, state: InterfaceState) -> NDArray[np.bool_]:
+    def capped(self, state: InterfaceState) -> BoolArray:
         """Where the cap holds."""
         return self.uncapped(self.governing(state)) > self.cap
 

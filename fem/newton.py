@@ -123,50 +123,42 @@ def solve(problem: Problem[X, E], x: X, options: NewtonOptions) -> NewtonResult[
     -------
     NewtonResult
     """
+
+    def ended(
+        iterations: int, failure: Failure | None = None, detail: str = ""
+    ) -> NewtonResult[X, E]:
+        return NewtonResult(
+            x=x, evaluation=evaluation, iterations=iterations, failure=failure, detail=detail
+        )
+
     evaluation = problem.evaluate(x)
     if not np.isfinite(evaluation.merit):
-        return NewtonResult(x=x, evaluation=evaluation, iterations=0, failure=Failure.INADMISSIBLE)
+        return ended(0, Failure.INADMISSIBLE)
     merits, cycles = [evaluation.merit], _CycleCount()
     progress = _Progress()
     for iteration in range(options.iterations_max):
         if evaluation.settled and evaluation.merit <= options.tolerance:
-            return NewtonResult(x=x, evaluation=evaluation, iterations=iteration)
+            return ended(iteration)
         try:
             direction = problem.direction(x, evaluation)
         except ArithmeticError as error:
-            return NewtonResult(
-                x=x,
-                evaluation=evaluation,
-                iterations=iteration + 1,
-                failure=Failure.SINGULAR,
-                detail=str(error),
-            )
+            return ended(iteration + 1, Failure.SINGULAR, str(error))
         bound = options.growth_max * max(max(merits[-3:]), options.tolerance)
         step = _line_search(problem, x, evaluation, direction, bound, options.halvings_max)
         if step is None:
             admissible = problem.evaluate(problem.moved(x, evaluation, direction, 1e-3))
-            failure = Failure.DIVERGED if np.isfinite(admissible.merit) else Failure.INADMISSIBLE
-            return NewtonResult(
-                x=x, evaluation=evaluation, iterations=iteration + 1, failure=failure
-            )
+            finite = np.isfinite(admissible.merit)
+            return ended(iteration + 1, Failure.DIVERGED if finite else Failure.INADMISSIBLE)
         x, evaluation = step
         merits.append(evaluation.merit)
-        stop: Failure | None = None
         if progress.pause(evaluation) > options.patience:
-            stop = Failure.STALLED
-        elif cycles.returns(evaluation) > options.cycles_max:
-            stop = Failure.CYCLING
-        if stop is not None:
-            return NewtonResult(x=x, evaluation=evaluation, iterations=iteration + 1, failure=stop)
+            return ended(iteration + 1, Failure.STALLED)
+        if cycles.returns(evaluation) > options.cycles_max:
+            return ended(iteration + 1, Failure.CYCLING)
     if evaluation.settled and evaluation.merit <= options.tolerance:
-        return NewtonResult(x=x, evaluation=evaluation, iterations=options.iterations_max)
-    return NewtonResult(
-        x=x,
-        evaluation=evaluation,
-        iterations=options.iterations_max,
-        failure=Failure.ITERATIONS,
-        detail=f"last merit {evaluation.merit:.2e}",
-    )
+        return ended(options.iterations_max)
+    last = f"last merit {evaluation.merit:.2e}"
+    return ended(options.iterations_max, Failure.ITERATIONS, last)
 
 
 class _Progress:

@@ -29,7 +29,6 @@ from fem.solvers import linear_solver
 from fem.stepping import (
     ContactLaws,
     CoupledModel,
-    CoupledState,
     Progress,
     Run,
     RunRecord,
@@ -202,23 +201,24 @@ def _summary(run: Run, outcome: Outcome) -> dict[str, Any]:
     summary: dict[str, Any] = {"status": outcome.status}
     if outcome.reason:
         summary |= {"reason": outcome.reason, "advice": outcome.advice}
-    summary |= last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm"))
-    summary |= sliding_means(history)
+    audit = run.auditor.audit
     summary |= {
+        **last_values(history, ("T_max_C", "T_edge_C", "A_T_K_mm")),
+        **sliding_means(history),
         "elements": len(mechanics.mesh.cells),
         "dofs": mechanics.size + heat.T.size,
         "steps": len(history),
         "newton_iterations": run.iterations,
         "wall_s": run.wall,
-        "energy_error": run.auditor.audit.error,
+        "energy_error": audit.error,
         "heat_error": heat_error(heat),
         **steady_shares(history),
-        "capped_heat_share": run.auditor.audit.capped_share,
+        "capped_heat_share": audit.capped_share,
         "rejected_steps": run.rejected,
-        "regularisation_share_with_onset": run.auditor.audit.regularisation_share,
-        "snap_share": run.auditor.audit.snap_share,
-        "rubber_dissipation_share": run.auditor.audit.rubber_share,
-        "damage_share": run.auditor.audit.damage_share,
+        "regularisation_share_with_onset": audit.regularisation_share,
+        "snap_share": audit.snap_share,
+        "rubber_dissipation_share": audit.rubber_share,
+        "damage_share": audit.damage_share,
         "friction_lag_error": largest(history, "friction_lag_error"),
         "friction_lag_share": lag_share(history),
         "largest_self_penetration": largest(history, "self_contact_penetration"),
@@ -230,13 +230,6 @@ def _summary(run: Run, outcome: Outcome) -> dict[str, Any]:
         "stick_slip_cycles": regime.cycles,
         **run.pyrometer.summary(),
         **block_summaries(history, mechanics.mesh.blocks),
-        "warnings": [
-            *case.warnings,
-            *regime.warnings,
-            *window_warnings(case, run.history.rows),
-        ],
+        "warnings": [*case.warnings, *regime.warnings, *window_warnings(case, run.history.rows)],
     }
     return judged(summary)
-
-
-__all__ = ["CoupledState", "Progress", "coupled_model", "mesh_of", "simulate"]

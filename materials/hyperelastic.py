@@ -18,9 +18,9 @@ from abc import abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 from materials.checks import require_between, require_finite, require_positive
 from materials.hyperelastic_base import (
     MODES,
@@ -336,7 +336,7 @@ class VanDerWaals(MixedInvariantEnergy):
     def initial_shear_modulus(self) -> float:
         return self.G
 
-    def _below_locking(self, I1: FloatArray, J: FloatArray) -> NDArray[np.bool_]:
+    def _below_locking(self, I1: FloatArray, J: FloatArray) -> BoolArray:
         return self._mixed_invariant(I1, J)[0] < self.lambda_m**2
 
     def energy(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 from materials.material import (
     Deformation,
     EnergyDerivatives,
@@ -104,7 +104,7 @@ class Hyperelastic(ABC):
         """The energy."""
         return StepEnd(stored=self.derivatives(deformation.I1, deformation.J).W)
 
-    def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
+    def admissible(self, I1: ArrayLike, J: ArrayLike) -> BoolArray:
         """Whether the energy exists at the state (J > 0, finite, below a locking stretch).
 
         Parameters
@@ -117,7 +117,7 @@ class Hyperelastic(ABC):
             valid = (J > 0.0) & np.isfinite(I1) & np.isfinite(J)
             return valid & self._below_locking(I1, np.where(J > 0.0, J, 1.0))
 
-    def _below_locking(self, I1: FloatArray, J: FloatArray) -> NDArray[np.bool_] | np.bool_:
+    def _below_locking(self, I1: FloatArray, J: FloatArray) -> BoolArray | np.bool_:
         return np.True_
 
 

@@ -8,10 +8,9 @@ state of its memory. Asking changes nothing: the caller keeps the state of the s
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 
 
 class EnergyDerivatives(NamedTuple):
@@ -148,7 +147,7 @@ class Material(Protocol):
     def initial_shear_modulus(self) -> float:
         """Shear modulus G of the undeformed state in slow tests [N/mm^2]."""
 
-    def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
+    def admissible(self, I1: ArrayLike, J: ArrayLike) -> BoolArray:
         """Whether the energy exists at the state."""
 
     def virgin(self, points: tuple[int, ...]) -> FloatArray | None:

@@ -9,9 +9,10 @@ column of degrees Celsius "looks like kelvin (20 deg C)".
 from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from materials.arrays import BoolArray, FloatArray, IndexArray
+
 _NO_LIMIT = (0.0, np.inf)
 
 
@@ -23,7 +24,7 @@ class Slip:
     factor: float
     zero: float = 0.0
 
-    def converted(self, number: ArrayLike) -> Array:
+    def converted(self, number: ArrayLike) -> FloatArray:
         """The number in the unit of the quantity."""
         with np.errstate(over="ignore"):  # infinite is as impossible as the number was
             return (np.asarray(number, dtype=float) - self.zero) * self.factor
@@ -143,8 +144,8 @@ def judge(values: ArrayLike, quantity: Quantity) -> Finding | None:
 
 
 def _finding(
-    numbers: Array,
-    out: NDArray[np.intp],
+    numbers: FloatArray,
+    out: IndexArray,
     quantity: Quantity,
     limits: tuple[float, float],
     *,
@@ -160,7 +161,7 @@ def _finding(
     )
 
 
-def _likely(numbers: Array, worst: float, quantity: Quantity) -> str:
+def _likely(numbers: FloatArray, worst: float, quantity: Quantity) -> str:
     """The slip that explains the number that stands out, and fits the rest of the column best."""
     stated = numbers[~np.isnan(numbers)]
     explaining = [slip for slip in quantity.slips if _usual(slip.converted(worst), quantity).all()]
@@ -178,7 +179,7 @@ def _likely(numbers: Array, worst: float, quantity: Quantity) -> str:
     return f"looks like {best.unit} ({meant})"
 
 
-def _usual(numbers: Array, quantity: Quantity) -> NDArray[np.bool_]:
+def _usual(numbers: FloatArray, quantity: Quantity) -> BoolArray:
     amounts = np.abs(numbers) if quantity.signed else numbers
     low, high = quantity.usual
     usual = (amounts >= low) & (amounts <= high)

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 from materials.homogeneous import HomogeneousTest, homogeneous_test
 from materials.hyperelastic_base import EnergyDerivatives, Hyperelastic, Mode
 from materials.material import Deformation, InPlane, Response, StepEnd, Stiffness
@@ -71,7 +71,7 @@ class Rubber:
         g = self.viscous.g if self.viscous else ()
         return np.asarray(g, dtype=float) * self.elastic.initial_shear_modulus
 
-    def admissible(self, I1: ArrayLike, J: ArrayLike) -> NDArray[np.bool_]:
+    def admissible(self, I1: ArrayLike, J: ArrayLike) -> BoolArray:
         """Whether the energy exists at the state (see `Hyperelastic.admissible`)."""
         return self.elastic.admissible(I1, J)
 

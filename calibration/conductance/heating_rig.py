@@ -23,12 +23,11 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csc_matrix, diags
 from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementQuad1, MeshQuad
 
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 from materials.thermal import ASPHALT, RUBBER, ThermalProperties
 from materials.units import W_PER_M2_K, WATT
 
@@ -397,7 +396,7 @@ class RigModel:
 
 
 def _body_matrices(
-    mesh: MeshQuad, lower: ThermalProperties, upper: ThermalProperties, in_upper: NDArray[np.bool_]
+    mesh: MeshQuad, lower: ThermalProperties, upper: ThermalProperties, in_upper: BoolArray
 ) -> tuple[coo_matrix, FloatArray]:
     """Conduction matrix and lumped capacity of a mesh of two materials."""
     basis = Basis(mesh, ElementQuad1())

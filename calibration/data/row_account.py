@@ -4,8 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import groupby
 
-import numpy as np
-from numpy.typing import NDArray
+from materials.arrays import BoolArray, IntArray
 
 _MOST_RANGES = 8  # ranges of rows that are spelt out; the rest is counted
 
@@ -29,7 +28,7 @@ class LeftOut:
         return f"{count} row{'' if count == 1 else 's'} ({spelt(self.rows)}): {self.reason}"
 
 
-def left_out(rows: NDArray[np.int64], out: NDArray[np.bool_], reason: str) -> tuple[LeftOut, ...]:
+def left_out(rows: IntArray, out: BoolArray, reason: str) -> tuple[LeftOut, ...]:
     """An entry for the rows where `out` is true; none when it is false everywhere."""
     chosen = tuple(int(row) for row in rows[out])
     return (LeftOut(rows=chosen, reason=reason),) if chosen else ()

@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from calibration.data.errors import DataError
+from materials.arrays import IntArray
 from materials.plausible import COLUMNS
 
 #: Every column that some reader knows: what a header may be recognised by.
@@ -68,7 +68,7 @@ class Cells:
 
     columns: dict[str, list[str]]
     header_row: int
-    rows: NDArray[np.int64]
+    rows: IntArray
     notes: tuple[str, ...]
 
 

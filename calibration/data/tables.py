@@ -9,11 +9,10 @@ from typing import Any, NoReturn
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data.errors import DataError
 from calibration.data.table_text import read_bytes, read_cells
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray, IntArray, WordArray
 from materials.plausible import COLUMNS, Quantity, judge
 
 
@@ -40,7 +39,7 @@ class Table:
 
     frame: pd.DataFrame
     file: str
-    rows: NDArray[np.int64]
+    rows: IntArray
     sha256: str
     notes: list[str] = field(default_factory=list)
     unusual: list[str] = field(default_factory=list)
@@ -109,7 +108,7 @@ class Table:
             self.judge(column, values, kind)
         return values
 
-    def words(self, column: str, allowed: Sequence[str]) -> NDArray[np.str_]:
+    def words(self, column: str, allowed: Sequence[str]) -> WordArray:
         """Values of a column that must be one of the allowed words."""
         values = np.array([str(v).strip() for v in self.frame[column]], dtype=str)
         bad = np.flatnonzero(~np.isin(values, allowed))
@@ -119,14 +118,14 @@ class Table:
             )
         return values
 
-    def require_all(self, column: str, valid: NDArray[np.bool_], expected: str) -> None:
+    def require_all(self, column: str, valid: BoolArray, expected: str) -> None:
         """Refuse the first row where `valid` is false."""
         bad = np.flatnonzero(~valid)
         if bad.size:
             entry = str(self.frame[column].iloc[bad[0]]).strip()
             self.refuse_at(bad[0], column, entry or "nothing", expected)
 
-    def select(self, keep: NDArray[np.bool_]) -> "Table":
+    def select(self, keep: BoolArray) -> "Table":
         """The rows where `keep` is true."""
         return replace(self, frame=self.frame[keep].reset_index(drop=True), rows=self.rows[keep])
 

@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from calibration.fitting.stability import Stability
 from fem.files import write_text
+from materials.arrays import FloatArray
 
 
 class Fit(Protocol):
@@ -33,7 +33,7 @@ class Fit(Protocol):
     @property
     def stderr(self) -> Mapping[str, float]: ...
     @property
-    def covariance(self) -> NDArray[np.float64]: ...
+    def covariance(self) -> FloatArray: ...
     @property
     def fixed(self) -> Collection[str]: ...
     @property

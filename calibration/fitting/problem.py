@@ -5,9 +5,8 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray
 
 Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 
@@ -49,7 +48,7 @@ class Problem:
     weights: FloatArray | None = None
     jacobian: Callable[[FloatArray], FloatArray] | None = None
     linear: bool = False
-    subset: Callable[[NDArray[np.intp]], "Problem"] | None = None
+    subset: Callable[[IndexArray], "Problem"] | None = None
     canonical: Callable[[FloatArray], FloatArray] | None = None
     absolute: bool = False
 

@@ -8,11 +8,10 @@ References
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from calibration.fitting.minimum import least_squares_solution, thinned
 from calibration.fitting.problem import Problem
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 
 CORRELATION_LIMIT = 0.99
 _SINGULAR = 1e-10  # smallest singular value of the column-scaled Jacobian, relative to the largest
@@ -57,7 +56,7 @@ def _variance(problem: Problem, residuals: FloatArray, fitted: int) -> float:
     return float(residuals @ residuals) / max(residuals.size - fitted, 1)
 
 
-def _inverse_normal_matrix(J: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+def _inverse_normal_matrix(J: FloatArray) -> tuple[FloatArray, BoolArray]:
     """``(J^T J)^-1`` and which parameters take part in a singular direction."""
     scale = np.linalg.norm(J, axis=0)
     empty = scale == 0.0

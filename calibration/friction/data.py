@@ -5,10 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data import Table, read_table
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray
 
 COLUMNS = ("p_N_per_mm2", "v_mm_per_s", "mu")
 
@@ -32,7 +31,7 @@ class FrictionData:
     T: FloatArray | None
     table: Table
 
-    def at(self, rows: NDArray[np.intp]) -> "FrictionData":
+    def at(self, rows: IndexArray) -> "FrictionData":
         """Some of the points."""
         T = None if self.T is None else self.T[rows]
         return replace(self, p=self.p[rows], v=self.v[rows], mu=self.mu[rows], T=T)

@@ -6,8 +6,9 @@ References
    applications", eqs. (5)-(8), Table 2.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -29,6 +30,8 @@ _ONE_TEMPERATURE_K = 5.0  # data that span more were not measured at one tempera
 #: Pressures [N/mm^2] and speeds [mm/s] of tread blocks, up to ten times the mean at the edges.
 _OF_A_BLOCK = ((1e-3, 10.0), (1.0, 1e5))
 _LN10 = float(np.log(10.0))
+#: Friction by the parameters, and its derivatives.
+_Curve = Callable[[FloatArray], tuple[FloatArray, ...]]
 
 
 def fit_friction(
@@ -123,22 +126,31 @@ def _problem_at(
     T_ref_C: float,
     whole: FrictionData | None = None,
 ) -> Problem:
-    common: dict[str, Any] = {"observed": data.mu}
-    if wlf != "fit":
-        v = _shifted_speed(data, wlf, T_ref_C)
-        return Problem(
-            names=form.names,
-            predict=lambda theta: form.curve(theta, data.p, v)[0],
-            jacobian=lambda theta: form.curve(theta, data.p, v)[1],
-            lower=np.array(form.lower),
-            upper=np.array(form.upper),
-            **common,
-        )
+    names, lower, upper = form.names, tuple(form.lower), tuple(form.upper)
+    if wlf == "fit":
+        coldest = (data if whole is None else whole).coldest
+        pole = max(T_ref_C - coldest, 0.0) + 5.0  # keeps every temperature 5 K above the pole
+        names, lower, upper = (*names, "d1", "d2_K"), (*lower, 1e-3, pole), (*upper, 1e3, 1e4)
+        curve: _Curve = _shifting_curve(form, data, T_ref_C)
+    else:
+        curve = partial(form.curve, p=data.p, v=_shifted_speed(data, wlf, T_ref_C))
+    return Problem(
+        names=names,
+        observed=data.mu,
+        predict=lambda theta: curve(theta)[0],
+        jacobian=lambda theta: curve(theta)[1],
+        lower=np.array(lower),
+        upper=np.array(upper),
+    )
+
+
+def _shifting_curve(form: FrictionCurve, data: FrictionData, T_ref_C: float) -> _Curve:
+    """Friction and its derivatives by the parameters of the law, d1 and d2."""
     assert data.T is not None
     dT = data.T - T_ref_C
     k = len(form.names)
 
-    def curve(theta: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def curve(theta: FloatArray) -> tuple[FloatArray, ...]:
         d1, d2 = theta[k:]
         reached = d2 + dT
         v = data.v * 10.0 ** (-d1 * dT / reached)
@@ -147,16 +159,7 @@ def _problem_at(
         by_d2 = _LN10 * d1 * dT / reached**2 * by_log_v
         return mu, np.column_stack([J, by_d1, by_d2])
 
-    coldest = (data if whole is None else whole).coldest
-    pole = max(T_ref_C - coldest, 0.0) + 5.0  # keeps every temperature 5 K above the pole
-    return Problem(
-        names=(*form.names, "d1", "d2_K"),
-        predict=lambda theta: curve(theta)[0],
-        jacobian=lambda theta: curve(theta)[1],
-        lower=np.array([*form.lower, 1e-3, pole]),
-        upper=np.array([*form.upper, 1e3, 1e4]),
-        **common,
-    )
+    return curve
 
 
 def _shifted_speed(data: FrictionData, wlf: WLF | None, T_ref_C: float) -> FloatArray:
@@ -199,24 +202,18 @@ def _completed(
     try:
         friction = shifted(form.build(own, **floors), wlf, T_ref_C)
     except ValueError as error:
-        raise DataError(
-            file=data.table.file,
-            found=f"data whose best {law} fit is no admissible law ({error})",
-            expected="friction over a wider range of speed and pressure, or another law",
-        ) from None
-    section: dict[str, Any] = {"law": law, **own, "wlf": wlf is not None}
-    if wlf is not None:
-        section.update(d1=wlf.d1, d2_K=wlf.d2_K, T_ref_C=float(T_ref_C))
-    elif data.T is not None and np.ptp(data.T) <= _ONE_TEMPERATURE_K:
-        section.update(T_ref_C=float(data.T.mean()))
-    section.update(p_min_N_per_mm2=floors["p_min"], v_min_mm_per_s=floors["v_min"])
-    ranges = {"p_N_per_mm2": data.p, "v_mm_per_s": speed, "T_C": data.T}
-    window = {
-        key: [float(values.min()), float(values.max())]
-        for key, values in ranges.items()
-        if values is not None
+        found = f"data whose best {law} fit is no admissible law ({error})"
+        expected = "friction over a wider range of speed and pressure, or another law"
+        raise DataError(file=data.table.file, found=found, expected=expected) from None
+    section = {
+        "law": law,
+        **own,
+        "wlf": wlf is not None,
+        **_shift_keys(data, wlf, T_ref_C),
+        "p_min_N_per_mm2": floors["p_min"],
+        "v_min_mm_per_s": floors["v_min"],
+        "window": _window(p_N_per_mm2=data.p, v_mm_per_s=speed, T_C=data.T),
     }
-    negative = _negative_warnings(friction.law, data, speed)
     metadata = {
         "kind": "friction",
         "model": law,
@@ -226,13 +223,32 @@ def _completed(
         "normalisation": _normalisation(result) if law == "huemer" else "none needed",
         "version": version_of(),
     }
+    negative = _negative_warnings(friction.law, data, speed)
     return replace(
         result,
         model=friction,
         metadata=metadata,
-        section={"friction": {**section, "window": window}},
+        section={"friction": section},
         warnings=(*result.warnings, *_data_warnings(data, wlf), *negative),
     )
+
+
+def _shift_keys(data: FrictionData, wlf: WLF | None, T_ref_C: float) -> dict[str, float]:
+    """Keys of the shift; without one, the temperature of the data if they have just one."""
+    if wlf is not None:
+        return {"d1": wlf.d1, "d2_K": wlf.d2_K, "T_ref_C": float(T_ref_C)}
+    if data.T is not None and np.ptp(data.T) <= _ONE_TEMPERATURE_K:
+        return {"T_ref_C": float(data.T.mean())}
+    return {}
+
+
+def _window(**ranges: FloatArray | None) -> dict[str, list[float]]:
+    """Lowest and highest value of what was measured."""
+    return {
+        key: [float(values.min()), float(values.max())]
+        for key, values in ranges.items()
+        if values is not None
+    }
 
 
 def _negative_warnings(law: FrictionLaw, data: FrictionData, speed: FloatArray) -> tuple[str, ...]:

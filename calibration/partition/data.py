@@ -17,7 +17,7 @@ from calibration.data import Table, read_table
 from calibration.partition.loading import loading_keys
 from fem.case import Case, CaseError
 from fem.results import EDGE_ZONE, interior_peak
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray
 
 #: What of a measured profile is compared: every point, or its highest interior temperature.
 ProfileUse = Literal["whole", "peak"]
@@ -55,7 +55,7 @@ class Condition:
     pressure: float
     of_contact: bool
     velocity: float
-    rows: NDArray[np.intp]
+    rows: IndexArray
     X: FloatArray | None
     observed: FloatArray
     sigma: FloatArray | None
@@ -146,14 +146,9 @@ def read_partition_data(
     if quantity == "T_C":
         conditions = tuple(_with_profile(c, table, place, case, profile) for c in conditions)
         quantity = "T_C" if profile == "whole" else "T_max_C"
-    found = len({condition.pressure for condition in conditions})
-    if found < 2:
-        table.refuse(
-            row=int(table.rows[-1]),
-            column=pressure,
-            found="1 pressure",
-            expected="at least 2 different ones for the power law of eq. (14)",
-        )
+    if len({condition.pressure for condition in conditions}) < 2:
+        expected = "at least 2 different ones for the power law of eq. (14)"
+        table.refuse_at(-1, pressure, "1 pressure", expected)
     return PartitionData(table=table, conditions=conditions, quantity=quantity)
 
 
@@ -194,7 +189,7 @@ def _with_profile(
     inside = np.abs(X / length - 0.5) <= 0.501
     table.require_all(place, inside, f"a position on the bottom, 0 to {length:g} mm")
     runs = _runs(table, condition.rows)
-    kept: list[NDArray[np.intp]] = []
+    kept: list[IndexArray] = []
     peaks: list[float] = []
     for rows in runs:
         _check_profile(table, place, X, rows)
@@ -212,7 +207,7 @@ def _with_profile(
     return replace(_at_rows(condition, whole, T), X=X[whole])
 
 
-def _at_rows(condition: Condition, rows: NDArray[np.intp], observed: FloatArray) -> Condition:
+def _at_rows(condition: Condition, rows: IndexArray, observed: FloatArray) -> Condition:
     """The condition with other observations, which stand in some of its rows."""
     sigma = condition.sigma
     if sigma is not None:
@@ -220,14 +215,14 @@ def _at_rows(condition: Condition, rows: NDArray[np.intp], observed: FloatArray)
     return replace(condition, rows=rows, observed=observed, sigma=sigma)
 
 
-def _runs(table: Table, rows: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+def _runs(table: Table, rows: IndexArray) -> list[IndexArray]:
     if not table.has("run"):
         return [rows]
     names = np.array([str(name).strip() for name in table.frame["run"]])[rows]
     return [rows[names == name] for name in dict.fromkeys(names.tolist())]
 
 
-def _check_profile(table: Table, place: str, X: FloatArray, rows: NDArray[np.intp]) -> None:
+def _check_profile(table: Table, place: str, X: FloatArray, rows: IndexArray) -> None:
     if len(rows) < FEWEST_POINTS:
         table.refuse_at(
             int(rows[-1]), place, f"{len(rows)} points of a profile", f"at least {FEWEST_POINTS}"

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from calibration.partition.data import Condition
 from calibration.partition.loading import loading_keys
@@ -16,7 +15,7 @@ from contact.interface import InterfaceState
 from contact.partition import HeatPartition
 from fem.case import Case
 from fem.results import EDGE_ZONE, interior_peak
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray
 
 #: Smallest partition that is tried.
 SMALLEST = 0.01
@@ -149,7 +148,7 @@ class Conditioned:
         return np.full(self.condition.observed.size, T[self._interior].max())
 
     @property
-    def _interior(self) -> NDArray[np.intp]:
+    def _interior(self) -> IndexArray:
         """Points that may be the hottest of the interior with another law."""
         X, T = self.slide.X, self.slide.T
         behind = X / X[-1] <= 1.0 - EDGE_ZONE

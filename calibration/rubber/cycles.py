@@ -14,9 +14,8 @@ from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray, IntArray, WordArray
 
 Branch = Literal["both", "load", "unload"]
 BRANCHES = ("load", "unload")
@@ -25,9 +24,7 @@ _TOO_FEW_TO_TELL = 6  # rows
 _SAME_LEVEL = 0.02  # strain amplitudes within 2 % of the highest count as the highest level
 
 
-def label_cycles(
-    stretch: FloatArray, *, hysteresis: float = 0.02
-) -> tuple[NDArray[np.int64], NDArray[np.str_]]:
+def label_cycles(stretch: FloatArray, *, hysteresis: float = 0.02) -> tuple[IntArray, WordArray]:
     """Number the cycles of a recorded test and name their branches.
 
     Parameters
@@ -99,9 +96,7 @@ def _turning_points(values: FloatArray, threshold: float) -> list[int]:
     return [*turns, len(strain) - 1] if turns[-1] != len(strain) - 1 else turns
 
 
-def last_full_cycle(
-    stretch: FloatArray, cycle: NDArray[np.int64], branch: NDArray[np.str_] | None
-) -> int | None:
+def last_full_cycle(stretch: FloatArray, cycle: IntArray, branch: WordArray | None) -> int | None:
     """Number of the last full cycle at the highest strain level.
 
     Parameters
@@ -130,10 +125,10 @@ def last_full_cycle(
 
 def in_last_full_cycle(
     stretch: FloatArray,
-    mode: NDArray[np.str_],
-    cycle: NDArray[np.int64],
-    branch: NDArray[np.str_] | None,
-) -> tuple[NDArray[np.bool_], dict[str, int]]:
+    mode: WordArray,
+    cycle: IntArray,
+    branch: WordArray | None,
+) -> tuple[BoolArray, dict[str, int]]:
     """Mask of the rows in the last full cycle of each mode, and its number by mode."""
     keep = np.zeros(stretch.size, dtype=bool)
     chosen = {}

@@ -13,7 +13,6 @@ from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data import DataError
 from calibration.fitting import FitResult, Loss, Problem, Stability, check_stability, fit, stage
@@ -23,7 +22,7 @@ from calibration.rubber.stress_data import Cycle, StressData, select_data
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
 from calibration.rubber.stress_zero import Zero
 from fem.files import version_of
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray
 
 Weighting = Literal["equal", "modes", "relative"]
 
@@ -138,7 +137,7 @@ def stress_problem(
     lower, upper = law.bounds(kin)
     factors = _weights(data, weights)
 
-    def subset(rows: NDArray[np.intp]) -> Problem:
+    def subset(rows: IndexArray) -> Problem:
         fewer = kin.at(rows)
         return Problem(
             names=law.names,

@@ -1,13 +1,12 @@
 """Whether numbers can be stretches and nominal stresses of rubber, before anything is fitted."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
 from calibration.data import DataError, Table
 from calibration.fitting import FitResult, refuse_no_fit
 from calibration.rubber.stress_models import Kinematics, StressModel
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, WordArray
 from materials.hyperelastic_base import Hyperelastic
 from materials.plausible import SHEAR_MODULUS, judge
 
@@ -17,9 +16,7 @@ _SURELY = 0.9  # rank correlation that scatter does not bring about
 _PRELOAD = 0.05  # share of the largest stress at rest that is worth a word
 
 
-def check_points(
-    source: Table, stretch: FloatArray, stress: FloatArray, mode: NDArray[np.str_]
-) -> None:
+def check_points(source: Table, stretch: FloatArray, stress: FloatArray, mode: WordArray) -> None:
     """Refuse strains in the column of stretches, as fractions or in per cent."""
     small = stretch < 0.95
     pulled = small & (stress > 0.0)
@@ -32,7 +29,7 @@ def check_points(
 
 
 def _refuse_amounts_of_compression(
-    source: Table, stretch: FloatArray, stress: FloatArray, mode: NDArray[np.str_]
+    source: Table, stretch: FloatArray, stress: FloatArray, mode: WordArray
 ) -> None:
     """Compression given as 0.1, 0.2, 0.3 has a stress that grows towards 1, where it should end."""
     for name in np.unique(mode):
@@ -47,7 +44,7 @@ def _refuse_amounts_of_compression(
 
 
 def _refuse_percent(
-    source: Table, stretch: FloatArray, stress: FloatArray, mode: NDArray[np.str_]
+    source: Table, stretch: FloatArray, stress: FloatArray, mode: WordArray
 ) -> None:
     """Small strains in per cent (2, 4, 6 ...) can be told from stretches by their stress only.
 
@@ -71,9 +68,7 @@ def _refuse_percent(
         )
 
 
-def _neo_hooke(
-    stretch: FloatArray, stress: FloatArray, mode: NDArray[np.str_]
-) -> tuple[float, float]:
+def _neo_hooke(stretch: FloatArray, stress: FloatArray, mode: WordArray) -> tuple[float, float]:
     """Shear modulus of the best neo-Hookean curve and its sum of squares."""
     unit = 0.5 * Kinematics.of(stretch, mode).k1
     G = float(unit @ stress) / float(unit @ unit)

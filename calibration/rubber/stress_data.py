@@ -7,7 +7,6 @@ from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data import LeftOut, Table, left_out, read_table
 from calibration.rubber.cycles import (
@@ -21,11 +20,9 @@ from calibration.rubber.stress_checks import STRESS, check_points, check_sign, c
 from calibration.rubber.stress_models import Kinematics
 from calibration.rubber.stress_zero import Zero, zeroed
 from materials import plausible as quantities
+from materials.arrays import BoolArray, FloatArray, IntArray, WordArray
 from materials.hyperelastic import MODES
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Words = NDArray[np.str_]
 Cycle = int | Literal["last-full", "all"] | None
 
 COLUMNS = ("stretch", STRESS, "mode")
@@ -46,9 +43,9 @@ class StressData:
         Cycle, branch, window, modes and zero, and what became of all rows, for the parameter file.
     """
 
-    stretch: Array
-    stress: Array
-    mode: Words
+    stretch: FloatArray
+    stress: FloatArray
+    mode: WordArray
     table: Table
     selection: dict[str, Any]
 
@@ -85,17 +82,12 @@ def select_data(
 ) -> StressData:
     """Read, check and choose the points of a fit (see `calibration.fit_hyperelastic`)."""
     source, notes = read_stress_table(table, modes[0] if modes and len(modes) == 1 else None)
-    stretch, mode = source.numbers("stretch", quantities.STRETCH), source.words("mode", MODES)
-    stress = source.numbers(STRESS, quantities.STRESS)
-    check_points(source, stretch, stress, mode)
+    stretch, stress, mode = _points(source)
     if zero == "none":
         check_zero(source, stretch, stress)
     account = _Account(source)
     if modes is not None:
-        unknown = [name for name in modes if name not in MODES]
-        if unknown:
-            raise ValueError(f"modes holds {unknown[0]!r}; expected some of {', '.join(MODES)}")
-        account.keep_where(np.isin(mode, list(modes)), "of another mode")
+        account.keep_where(_of_modes(mode, modes), "of another mode")
     chosen, branches, label = _chosen_cycle(source, stretch, mode, cycle, branch)
     account.keep_where(chosen, "of another cycle")
     if zero != "none":
@@ -104,32 +96,56 @@ def select_data(
         notes += moved.notes
         account.keep_where(moved.valid, "shorter than the permanent set")
     if branch != "both":
-        if branches is None:
-            source.refuse(found="no column branch", expected=f"one to choose the {branch} path by")
-        account.keep_where(branches == branch, f"not on the {branch} path")
+        account.keep_where(_on_path(source, branches, branch), f"not on the {branch} path")
     if window is not None:
         inside = _in_window(source, stretch, account.keep, window)
         account.keep_where(inside, f"outside the window {window[0]:g} to {window[1]:g}")
-    keep = account.keep
-    used = source.select(keep)
-    if not len(used):
-        source.refuse(found="no row that the selection keeps", expected="some data to fit to")
-    if not np.any(stress[keep]):
-        used.refuse_at(0, STRESS, "zero in every row", "stresses in N/mm^2, not all zero")
-    check_sign(used, stretch[keep], stress[keep])
+    data = _used(source, stretch, stress, mode, account.keep)
     selection = {
         "cycle": label,
         "branch": branch,
         "window": list(window) if window is not None else "all",
-        "modes": sorted({str(name) for name in mode[keep]}),
+        "modes": sorted({str(name) for name in data.mode}),
         "zero": zero,
-        "rows_used": len(used),
+        "rows_used": len(data.table),
         "rows_left_out": [str(entry) for entry in account.out],
         "notes": notes,
     }
-    return StressData(
-        stretch=stretch[keep], stress=stress[keep], mode=mode[keep], table=used, selection=selection
-    )
+    return replace(data, selection=selection)
+
+
+def _points(source: Table) -> tuple[FloatArray, FloatArray, WordArray]:
+    """Stretch, stress and mode of every row."""
+    stretch, mode = source.numbers("stretch", quantities.STRETCH), source.words("mode", MODES)
+    stress = source.numbers(STRESS, quantities.STRESS)
+    check_points(source, stretch, stress, mode)
+    return stretch, stress, mode
+
+
+def _on_path(source: Table, branches: WordArray | None, branch: Branch) -> BoolArray:
+    if branches is None:
+        source.refuse(found="no column branch", expected=f"one to choose the {branch} path by")
+    return np.asarray(branches == branch)
+
+
+def _of_modes(mode: WordArray, modes: Sequence[str]) -> BoolArray:
+    unknown = [name for name in modes if name not in MODES]
+    if unknown:
+        raise ValueError(f"modes holds {unknown[0]!r}; expected some of {', '.join(MODES)}")
+    return np.isin(mode, list(modes))
+
+
+def _used(
+    source: Table, stretch: FloatArray, stress: FloatArray, mode: WordArray, keep: BoolArray
+) -> StressData:
+    """The rows that are kept, if they can be fitted to."""
+    used, stretch, stress = source.select(keep), stretch[keep], stress[keep]
+    if not len(used):
+        source.refuse(found="no row that the selection keeps", expected="some data to fit to")
+    if not np.any(stress):
+        used.refuse_at(0, STRESS, "zero in every row", "stresses in N/mm^2, not all zero")
+    check_sign(used, stretch, stress)
+    return StressData(stretch=stretch, stress=stress, mode=mode[keep], table=used, selection={})
 
 
 class _Account:
@@ -140,7 +156,7 @@ class _Account:
         self.keep = np.ones(len(source), dtype=bool)
         self.out: list[LeftOut] = []
 
-    def keep_where(self, chosen: Mask, reason: str) -> None:
+    def keep_where(self, chosen: BoolArray, reason: str) -> None:
         self.out += left_out(self.rows, self.keep & ~chosen, reason)
         self.keep = self.keep & chosen
 
@@ -169,9 +185,9 @@ def read_stress_table(
 
 
 def _chosen_cycle(
-    source: Table, stretch: Array, mode: Words, wanted: Cycle, branch: Branch
-) -> tuple[Mask, Words | None, str]:
-    """Mask of the chosen cycle, the branches, and a label of the choice."""
+    source: Table, stretch: FloatArray, mode: WordArray, wanted: Cycle, branch: Branch
+) -> tuple[BoolArray, WordArray | None, str]:
+    """BoolArray of the chosen cycle, the branches, and a label of the choice."""
     branches = source.words("branch", BRANCHES) if source.has("branch") else None
     everything = np.ones(stretch.size, dtype=bool)
     if source.has("cycle"):
@@ -205,12 +221,12 @@ def _chosen_cycle(
 
 def _labelled(
     source: Table,
-    stretch: Array,
-    mode: Words,
-    cycles: NDArray[np.int64] | None,
+    stretch: FloatArray,
+    mode: WordArray,
+    cycles: IntArray | None,
     *,
     strict: bool,
-) -> tuple[NDArray[np.int64], Words]:
+) -> tuple[IntArray, WordArray]:
     """Cycles (where not given) and branches from the course of the stretch, mode by mode."""
     number = np.zeros(stretch.size, dtype=np.int64) if cycles is None else cycles
     found, branches = number.copy(), np.empty(stretch.size, dtype="<U6")
@@ -230,7 +246,9 @@ def _labelled(
     return found, branches
 
 
-def _in_window(source: Table, stretch: Array, keep: Mask, window: tuple[float, float]) -> Mask:
+def _in_window(
+    source: Table, stretch: FloatArray, keep: BoolArray, window: tuple[float, float]
+) -> BoolArray:
     low, high = window
     if not 0.0 < low < high:
         raise ValueError(f"window is {low:g} to {high:g}; expected two rising stretches above 0")

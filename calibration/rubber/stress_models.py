@@ -19,11 +19,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from fem.case import CONSTANTS
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray, WordArray
 from materials.hyperelastic import (
     MODES,
     ArrudaBoyce,
@@ -58,7 +57,7 @@ class Kinematics:
     transverse: FloatArray
 
     @classmethod
-    def of(cls, stretch: FloatArray, mode: NDArray[np.str_]) -> "Kinematics":
+    def of(cls, stretch: FloatArray, mode: WordArray) -> "Kinematics":
         """Kinematics of stretches (n,) in the modes (n,)."""
         columns = np.empty((4, stretch.size))
         transverse = np.empty(stretch.size)
@@ -69,7 +68,7 @@ class Kinematics:
         I1b, I2b, k1, k2 = columns
         return cls(lam=stretch, I1b=I1b, I2b=I2b, k1=k1, k2=k2, transverse=transverse)
 
-    def at(self, rows: NDArray[np.intp]) -> "Kinematics":
+    def at(self, rows: IndexArray) -> "Kinematics":
         """Kinematics of some of the tests."""
         return Kinematics(**{key: getattr(self, key)[rows] for key in self.__dataclass_fields__})
 

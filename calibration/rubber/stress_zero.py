@@ -10,10 +10,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from calibration.data import Table
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray, IndexArray, WordArray
 
 Zero = Literal["none", "first", "loop"]
 
@@ -36,7 +35,7 @@ class Zeroed:
 
     stretch: FloatArray
     stress: FloatArray
-    valid: NDArray[np.bool_]
+    valid: BoolArray
     notes: list[str]
 
 
@@ -44,9 +43,9 @@ def zeroed(
     source: Table,
     stretch: FloatArray,
     stress: FloatArray,
-    mode: NDArray[np.str_],
-    branches: NDArray[np.str_] | None,
-    used: NDArray[np.bool_],
+    mode: WordArray,
+    branches: WordArray | None,
+    used: BoolArray,
     zero: Zero,
 ) -> Zeroed:
     """Move the zero of every mode; `used` are the rows of the chosen cycle."""
@@ -89,8 +88,8 @@ def _zero_of_the_loop(
     source: Table,
     stretch: FloatArray,
     stress: FloatArray,
-    here: NDArray[np.intp],
-    branches: NDArray[np.str_] | None,
+    here: IndexArray,
+    branches: WordArray | None,
     name: str,
 ) -> float:
     """Stretch at which the unloading path reaches zero stress."""

@@ -6,11 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data import Table, read_table
-
-Array = NDArray[np.float64]
+from materials.arrays import FloatArray, IndexArray
 
 #: Quantities of a sweep; the first two carry the vertical shift, a ratio does not.
 MODULUS, LOSS, TAN_DELTA = "modulus_N_per_mm2", "loss_modulus_N_per_mm2", "tan_delta"
@@ -39,9 +37,9 @@ class Sweep:
     """
 
     T_C: float
-    x: Array
-    y: Mapping[str, Array]
-    here: NDArray[np.intp]
+    x: FloatArray
+    y: Mapping[str, FloatArray]
+    here: IndexArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +63,7 @@ class SweepData:
     warnings: tuple[str, ...]
 
     @property
-    def temperatures(self) -> Array:
+    def temperatures(self) -> FloatArray:
         return np.array([sweep.T_C for sweep in self.sweeps])
 
 
@@ -117,7 +115,7 @@ def read_sweeps(
     )
 
 
-def _frequency(source: Table) -> Array:
+def _frequency(source: Table) -> FloatArray:
     if not source.has(OMEGA):
         source.require((FREQUENCY,))
         return source.numbers(FREQUENCY)
@@ -128,7 +126,7 @@ def _frequency(source: Table) -> Array:
     return f
 
 
-def _consistency(source: Table, values: Mapping[str, Array]) -> list[str]:
+def _consistency(source: Table, values: Mapping[str, FloatArray]) -> list[str]:
     if len(values) < 3:
         return []
     off = np.abs(np.log10(values[LOSS] / (values[MODULUS] * values[TAN_DELTA])))
@@ -143,8 +141,8 @@ def _consistency(source: Table, values: Mapping[str, Array]) -> list[str]:
 
 
 def _groups(
-    source: Table, T: Array, f: Array, tolerance: float | None
-) -> tuple[list[NDArray[np.intp]], tuple[str, ...]]:
+    source: Table, T: FloatArray, f: FloatArray, tolerance: float | None
+) -> tuple[list[IndexArray], tuple[str, ...]]:
     """Rows of each sweep in rising temperature."""
     order = np.argsort(T, kind="stable")
     if tolerance is None:
@@ -173,10 +171,10 @@ def _groups(
 
 def _sweep(
     source: Table,
-    T: Array,
-    log_f: Array,
-    logs: Mapping[str, Array],
-    here: NDArray[np.intp],
+    T: FloatArray,
+    log_f: FloatArray,
+    logs: Mapping[str, FloatArray],
+    here: IndexArray,
 ) -> tuple[Sweep, list[str]]:
     temperature = float(T[here].mean())
     # frequencies that a generator meant to be equal differ by rounding

@@ -19,21 +19,21 @@ Balance to rounding: generated = in_block + in_road + radiated + convected + lef
 from __future__ import annotations
 
 from collections import OrderedDict
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.case import Case
 from fem.heat.block import BlockConduction, Factorisation, relative_change
-from fem.heat.exchange import Passage, passage, solve_exchange
+from fem.heat.exchange import ExchangeResult, Passage, passage, solve_exchange
 from fem.heat.radiation import radiated_flux, radiating_length
-from fem.heat.road import RoadConduction, RoadGrid, RoadState
+from fem.heat.road import RoadConduction, RoadGrid, RoadState, RoadStep
 from fem.heat.state import HeatLoad, HeatState, RoadField
 from fem.mesh import BlockMesh
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 from materials.thermal import ThermalProperties
 
 #: Matrices of conduction that are kept at least and at most, and the nodes of all of them together.
@@ -315,7 +315,7 @@ class HeatModel:
             implicit=implicit,
         )
 
-    def _pieces(self, positions: FloatArray, covered: NDArray[np.bool_]) -> FloatArray:
+    def _pieces(self, positions: FloatArray, covered: BoolArray) -> FloatArray:
         """Ends of the contact surface of each node relative to it along x, (n, 2) [mm].
 
         Half of each boundary edge whose two nodes are in contact.
@@ -354,26 +354,9 @@ class HeatModel:
         rates = interval.source - radiation - convection
         rates[nodes] -= flow
         excess = solve(self.block.capacity * (T - self.ambient_C) + dt * rates)
-        surface = road_step.cold_surface + road_step.surface_change(
-            dt * (way.distributed(flow) - road_loss)
-        )
-
-        def block_response(q: FloatArray) -> FloatArray:
-            rhs = np.zeros(self.block.n)
-            rhs[nodes] = dt * q
-            return solve(rhs)
-
-        def difference_response(q: FloatArray, drop: FloatArray) -> FloatArray:
-            return drop[nodes] + way.seen(road_step.surface_change(dt * way.distributed(q)))
-
-        result = solve_exchange(
-            flow,
-            load.conductance,
-            excess[nodes] - way.seen(surface),
-            block_response,
-            difference_response,
-            tolerance_K=self.exchange_tolerance_K,
-        )
+        change = road_step.surface_change(dt * (way.distributed(flow) - road_loss))
+        difference = excess[nodes] - way.seen(road_step.cold_surface + change)
+        result = self._exchange(flow, load, difference, solve, road_step, way, dt)
         new_road = RoadState(
             first=road.first,
             excess=road_step.finish(dt * (way.distributed(result.flow) - road_loss)),
@@ -388,6 +371,36 @@ class HeatModel:
             radiated=dt * float(radiation.sum() + road_loss.sum()),
             convected=dt * float(convection.sum()),
             iterations=result.iterations,
+        )
+
+    def _exchange(
+        self,
+        flow: FloatArray,
+        load: HeatLoad,
+        difference: FloatArray,
+        solve: Callable[[FloatArray], FloatArray],
+        road_step: RoadStep,
+        way: Passage,
+        dt: float,
+    ) -> ExchangeResult:
+        """Flow through the contact, from that before and the difference of temperature it gives."""
+        nodes = load.contact_nodes
+
+        def block_response(q: FloatArray) -> FloatArray:
+            rhs = np.zeros(self.block.n)
+            rhs[nodes] = dt * q
+            return solve(rhs)
+
+        def difference_response(q: FloatArray, drop: FloatArray) -> FloatArray:
+            return drop[nodes] + way.seen(road_step.surface_change(dt * way.distributed(q)))
+
+        return solve_exchange(
+            flow,
+            load.conductance,
+            difference,
+            block_response,
+            difference_response,
+            tolerance_K=self.exchange_tolerance_K,
         )
 
     def _passage(

@@ -1,9 +1,8 @@
 """Radiation of grey surfaces to surroundings at the ambient temperature."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 from materials.units import ABSOLUTE_ZERO_C, STEFAN_BOLTZMANN
 
 
@@ -23,9 +22,7 @@ def radiated_flux(T_C: FloatArray, ambient_C: float, emissivity: float) -> Float
     return np.asarray(emissivity * STEFAN_BOLTZMANN * (T**4 - T_a**4))
 
 
-def radiating_length(
-    positions: FloatArray, edges: IntArray, covered: NDArray[np.bool_]
-) -> FloatArray:
+def radiating_length(positions: FloatArray, edges: IntArray, covered: BoolArray) -> FloatArray:
     """Free surface that each node stands for, (n,) [mm]; nodes in contact do not radiate.
 
     Parameters

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 from skfem import MeshQuad
 
 from fem.mesh.boundary import Chain, free_curves, named_chains, single_edges
 from fem.mesh.grading import Grading
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +54,7 @@ class BlockMesh:
         return np.concatenate(self.curves)
 
     @cached_property
-    def joined(self) -> NDArray[np.bool_]:
+    def joined(self) -> BoolArray:
         """Whether an edge joins a node of `boundary` and the next one, (m - 1,)."""
         ends = np.cumsum([len(curve) for curve in self.curves])[:-1]
         joined = np.ones(len(self.boundary) - 1, dtype=bool)
@@ -68,7 +67,7 @@ class BlockMesh:
         return np.column_stack([self.boundary[:-1], self.boundary[1:]])[self.joined]
 
     @cached_property
-    def is_free(self) -> NDArray[np.bool_]:
+    def is_free(self) -> BoolArray:
         """Which nodes of `boundary` the platen does not hold, (m,)."""
         return ~np.isin(self.boundary, self.top)
 
@@ -104,7 +103,7 @@ class BlockMesh:
         return np.concatenate([chain.nodes for chain in self.bottoms])
 
     @cached_property
-    def on_bottom(self) -> NDArray[np.bool_]:
+    def on_bottom(self) -> BoolArray:
         """Which candidates belong to a bottom."""
         return np.isin(self.candidates, self.bottom)
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from materials.arrays import FloatArray
 
 #: Samples of an interval for the integral of the number of cells.
 SAMPLES = 400

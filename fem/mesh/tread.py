@@ -13,14 +13,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.mesh.block import BlockMesh, graded_coordinates
 from fem.mesh.grading import Grading
 from fem.mesh.sizes import Fine, divided
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from materials.arrays import BoolArray, FloatArray
 
 #: Growth of the cells away from corners and bases that the plain block has not [-].
 GROWTH = 0.25
@@ -215,7 +212,7 @@ class _Grid:
                     f"above the road; expected at least {THINNEST * self.sizes.x + c:.3g} mm"
                 )
 
-    def nodes(self) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
+    def nodes(self) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
         """x, y and presence of the nodes (columns, rows), and presence of the cells."""
         x, y, there, cells = [], [], [], []
         for k in range(len(self.walls) // 2):

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from materials.arrays import AnyArray
 
 #: Name of the file in the folder of a run.
 BOTTOM_FILE = "bottom.npz"
@@ -27,9 +27,9 @@ class BottomHistory:
         Contact pressure [N/mm^2].
     """
 
-    X_mm: NDArray[Any]
-    kind: NDArray[Any]
-    pressure: NDArray[Any]
+    X_mm: AnyArray
+    kind: AnyArray
+    pressure: AnyArray
 
     def write(self, path: str | Path) -> None:
         """Write a NumPy archive."""

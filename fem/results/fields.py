@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.results.snapshot import BlockGeometry, Snapshot
+from materials.arrays import AnyArray
 
 FIELDS_FILE = "fields.npz"
 _PARTS = tuple(part.name for part in fields(Snapshot))
@@ -53,12 +53,12 @@ def read_fields(path: str | Path) -> tuple[BlockGeometry, list[Snapshot]]:
     return geometry, snapshots
 
 
-def _parts(arrays: dict[str, NDArray[Any]], number: int) -> dict[str, Any]:
+def _parts(arrays: dict[str, AnyArray], number: int) -> dict[str, Any]:
     """What the archive has of a snapshot."""
     names = {name: f"{name}_{number}" for name in _PARTS}
     return {name: _plain(arrays[key]) for name, key in names.items() if key in arrays}
 
 
-def _plain(array: NDArray[Any]) -> Any:
+def _plain(array: AnyArray) -> Any:
     """The array, or the number it is."""
     return array if array.ndim else float(array)

@@ -9,10 +9,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.case import Case, ContactWindow
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 
 Rows = Sequence[Mapping[str, Any]]
 
@@ -34,7 +33,7 @@ def contact_columns(
     v: FloatArray,
     T: FloatArray,
     length: FloatArray,
-    slipping: NDArray[np.bool_],
+    slipping: BoolArray,
 ) -> dict[str, float]:
     """Shares of the contact outside the windows, for a row of the history.
 
@@ -128,7 +127,7 @@ def _limits(window: ContactWindow | None) -> Mapping[str, tuple[float, float]]:
     return {key: (limits[0], limits[1]) for key, limits in content.items()}
 
 
-def _outside(values: FloatArray, limits: tuple[float, float]) -> NDArray[np.bool_]:
+def _outside(values: FloatArray, limits: tuple[float, float]) -> BoolArray:
     low, high = limits
     room = _WIDER * max(abs(low), abs(high))
     return (values < low - room) | (values > high + room)

@@ -6,15 +6,13 @@ Cell order of VTK's symmetric tensors is XX, YY, ZZ, XY, YZ, XZ.
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import meshio
 import numpy as np
-from numpy.typing import NDArray
 
 from fem.results.snapshot import BlockGeometry, Snapshot
-from materials.arrays import FloatArray
+from materials.arrays import AnyArray, FloatArray
 
 DISPLACEMENT = "displacement_mm"
 TEMPERATURE = "temperature_C"
@@ -94,7 +92,7 @@ def _road_mesh(snapshot: Snapshot) -> meshio.Mesh:
 
 def _mesh(
     points: FloatArray,
-    cells: NDArray[Any],
+    cells: AnyArray,
     point_data: dict[str, FloatArray],
     cell_data: dict[str, FloatArray],
     constants: dict[str, float],

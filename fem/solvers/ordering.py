@@ -14,9 +14,8 @@ References
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 
 #: Pieces of at most this many nodes are not divided further.
 PIECE = 4
@@ -74,7 +73,7 @@ class _Division:
 
     side: IntArray
     axis: IntArray
-    done: NDArray[np.bool_]
+    done: BoolArray
 
 
 def _divided(

@@ -6,12 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
-from materials.arrays import FloatArray, IntArray
-
-IndexArray = NDArray[np.int32]
+from materials.arrays import FloatArray, Int32Array, IntArray
 
 
 @dataclass(frozen=True)
@@ -32,8 +29,8 @@ class SparsePattern:
     """
 
     size: int
-    indices: IndexArray
-    indptr: IndexArray
+    indices: Int32Array
+    indptr: Int32Array
     slots: IntArray
 
     @classmethod

@@ -59,7 +59,7 @@ def measured_run(case: dict[str, Any], timeout_s: float | None = None) -> dict[s
 def main() -> None:
     """Run the case of the standard input."""
     from fem import Case, simulate
-    from fem.simulation import Progress
+    from fem.stepping import Progress
 
     trace: list[list[float]] = []
 

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fem.case import Case
 from fem.results import HISTORY, HISTORY_FILE, RunFolder, read_table
 from fem.sweeps import RUNS_FOLDER, StudyCase
+from materials.arrays import FloatArray
 from validation.studies import cases_of
 
 #: Motions of the platen at which the onset is looked at [mm].
@@ -46,7 +46,7 @@ def _swept(case: StudyCase, folder: Path) -> SweptRun:
     )
 
 
-def force_at(history: pd.DataFrame, distances: NDArray[np.float64]) -> NDArray[np.float64]:
+def force_at(history: pd.DataFrame, distances: FloatArray) -> FloatArray:
     """Friction force at motions of the platen [N/mm], linear between the steps.
 
     Parameters
@@ -65,7 +65,7 @@ def force_at(history: pd.DataFrame, distances: NDArray[np.float64]) -> NDArray[n
     return _interpolated(from_rest, from_rest["friction_force_N_per_mm"].to_numpy(), distances)
 
 
-def damping_force_at(history: pd.DataFrame, distances: NDArray[np.float64]) -> NDArray[np.float64]:
+def damping_force_at(history: pd.DataFrame, distances: FloatArray) -> FloatArray:
     """Part of the friction force that the damping takes: what it dissipates per motion [N/mm].
 
     Parameters and result as those of `force_at`; the dissipation of a step counts at its end.
@@ -82,9 +82,7 @@ def _from_rest(history: pd.DataFrame) -> pd.DataFrame:
     return history.drop_duplicates("sliding_distance_mm", keep="last")
 
 
-def _interpolated(
-    from_rest: pd.DataFrame, values: NDArray[np.float64], distances: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _interpolated(from_rest: pd.DataFrame, values: FloatArray, distances: FloatArray) -> FloatArray:
     return np.interp(distances, from_rest["sliding_distance_mm"], values, right=np.nan)
 
 

@@ -6,10 +6,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from fem.results import BottomHistory
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray
 from validation.drawing.style import BLUE, GREY, ORANGE, PAGE_WIDTH, STRESS_MAP, new_figure, styled
 
 MOTION_LABEL = "platen motion [mm]"
@@ -45,14 +44,14 @@ def draw_onset(history: pd.DataFrame, bottom: BottomHistory) -> Figure:
     return figure
 
 
-def _shown_steps(history: pd.DataFrame) -> NDArray[np.intp]:
+def _shown_steps(history: pd.DataFrame) -> IndexArray:
     """Sliding steps up to the end of the onset, and the one that reaches over it."""
     motion = history["sliding_distance_mm"].to_numpy()
     before = np.concatenate([[0.0], motion[:-1]])
     return np.flatnonzero((motion > 0.0) & (before < onset_end(history)))
 
 
-def _edges_of_motion(history: pd.DataFrame, steps: NDArray[np.intp]) -> FloatArray:
+def _edges_of_motion(history: pd.DataFrame, steps: IndexArray) -> FloatArray:
     """Motion at the ends of the steps, from rest: a step is drawn in the state it ended with."""
     return np.concatenate([[0.0], history["sliding_distance_mm"].to_numpy()[steps]])
 
@@ -61,7 +60,7 @@ def _edges_of_nodes(X: FloatArray) -> FloatArray:
     return np.concatenate([X[:1], 0.5 * (X[1:] + X[:-1]), X[-1:]])
 
 
-def _draw_force(axes: Axes, history: pd.DataFrame, steps: NDArray[np.intp]) -> None:
+def _draw_force(axes: Axes, history: pd.DataFrame, steps: IndexArray) -> None:
     motion, force = (
         history[name].abs().to_numpy()[np.concatenate([steps[:1] - 1, steps]).clip(min=0)]
         for name in ("sliding_distance_mm", "friction_force_N_per_mm")
@@ -73,9 +72,7 @@ def _draw_force(axes: Axes, history: pd.DataFrame, steps: NDArray[np.intp]) -> N
     axes.grid(axis="y")
 
 
-def _draw_status(
-    axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: NDArray[np.intp]
-) -> None:
+def _draw_status(axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: IndexArray) -> None:
     colours = ListedColormap(list(STATUS_COLOURS.values()))
     axes.pcolormesh(
         motion,
@@ -97,7 +94,7 @@ def _draw_status(
 
 
 def _draw_pressure(
-    axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: NDArray[np.intp]
+    axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: IndexArray
 ) -> object:
     pressure = bottom.pressure[steps]
     # The corner carries many times the mean: the scale ends where all but it is told apart.

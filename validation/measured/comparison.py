@@ -22,11 +22,11 @@ from fem.results import (
     read_summary,
     read_table,
 )
+from materials.arrays import IndexArray
 from validation.analysis import ACCEPTED_K, MEASURED_TO_K
 from validation.measured.matching import (
     START_TOLERANCE_K,
     TOLERANCES,
-    IntArray,
     first_ambiguous,
     matched,
 )
@@ -247,7 +247,7 @@ def compare(measurements: Measurements, runs: pd.DataFrame) -> Comparison:
     )
 
 
-def _check_unique(measurements: Measurements, tests: IntArray, found: pd.DataFrame) -> None:
+def _check_unique(measurements: Measurements, tests: IndexArray, found: pd.DataFrame) -> None:
     """Refuse a test that leaves open which of several velocities or pressures it had."""
     at = first_ambiguous(measurements.points, tests, found)
     if at is None:
@@ -266,7 +266,7 @@ def _check_unique(measurements: Measurements, tests: IntArray, found: pd.DataFra
     )
 
 
-def _check_places(measurements: Measurements, tests: IntArray, found: pd.DataFrame) -> None:
+def _check_places(measurements: Measurements, tests: IndexArray, found: pd.DataFrame) -> None:
     """Refuse a profile that does not lie on the bottom of the block that was simulated."""
     if not measurements.profiles:
         return

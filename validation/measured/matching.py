@@ -2,11 +2,8 @@
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from materials.arrays import BoolArray
-
-IntArray = NDArray[np.intp]
+from materials.arrays import BoolArray, IndexArray
 
 #: Measured conditions and how far a simulation may be from them [-]. The mean contact pressure is a
 #: result, which varies with friction; the others are inputs.
@@ -20,7 +17,7 @@ _WORDS = ("compound", "law")
 _BATCH = 20_000
 
 
-def matched(points: pd.DataFrame, runs: pd.DataFrame) -> tuple[IntArray, IntArray]:
+def matched(points: pd.DataFrame, runs: pd.DataFrame) -> tuple[IndexArray, IndexArray]:
     """Positions of the tests (k,) and of their simulations (k,), test by test.
 
     Of each variant it is the simulation nearest in contact pressure. What a test does not state
@@ -71,7 +68,7 @@ def _nearest_in_pressure(fits: BoolArray, points: pd.DataFrame, runs: pd.DataFra
     return fits
 
 
-def first_ambiguous(points: pd.DataFrame, tests: IntArray, found: pd.DataFrame) -> int | None:
+def first_ambiguous(points: pd.DataFrame, tests: IndexArray, found: pd.DataFrame) -> int | None:
     """Position of the first test that fits several simulations of one variant; None if none does.
 
     `tests` and `found` are the pairs of `matched`, `found` as rows of the simulations.

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from calibration.data import Table, read_table
 from contact import FRICTION_LAWS
 from fem.results import excess_area, interior_peak
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray, IntArray
 
 #: What is compared, with its unit.
 QUANTITIES = {"T_max_C": "°C", "A_T_K_mm": "K mm", "friction_coefficient": "-"}
@@ -56,7 +56,7 @@ class Profile:
     run: str
     X_mm: FloatArray
     T_C: FloatArray
-    rows: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    rows: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,7 +147,7 @@ def evaluated(profile: Profile, T_0_C: float = START_C) -> dict[str, float]:
     }
 
 
-def _check_profile(table: Table, index: NDArray[np.intp], X: FloatArray, run: str) -> None:
+def _check_profile(table: Table, index: IndexArray, X: FloatArray, run: str) -> None:
     if len(index) < 2:
         table.refuse_at(int(index[0]), "x_mm", f"1 point of run {run}", "at least 2 points")
     falling = np.flatnonzero(np.diff(X) <= 0.0)
@@ -161,7 +161,7 @@ def _check_profile(table: Table, index: NDArray[np.intp], X: FloatArray, run: st
         )
 
 
-def _check_conditions(table: Table, rows: pd.DataFrame, first: NDArray[np.intp]) -> None:
+def _check_conditions(table: Table, rows: pd.DataFrame, first: IndexArray) -> None:
     """Refuse a condition that changes within a run; `first` is the first row of each row's run."""
     for column in rows.columns.drop("row"):
         values = rows[column].to_numpy()

@@ -9,7 +9,8 @@ import pandas as pd
 import pytest
 
 from fem.results.result import Result
-from fem.simulation import mesh_of, simulate
+from fem.simulation import simulate
+from fem.stepping import mesh_of
 from fem.sweeps import case as sweep_case
 from tests.made_up_result import made_up_case, made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
