@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
 
 from contact.active_set import ContactStatus
-from contact.self_contact import Boundary
+from contact.pair_search import Boundary
 from fem.mechanics.elements import Q1P0Elements, tangent_entries
 from fem.mechanics.iterate import StepLoad
 from fem.mesh import BlockMesh

@@ -9,7 +9,6 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from contact.active_set import SLIP, STICK, ContactForces, ContactStatus, next_status
-from contact.pair_search import Boundary
 from contact.self_contact import (
     PairForces,
     Pairs,
