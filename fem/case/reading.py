@@ -223,12 +223,14 @@ def _drop_replaced(tables: Table, dotted: str) -> None:
         "block.file": ("file_sha256", "length_mm", "height_mm"),
         "friction.parameters": ("law", "window", *all_parameters()),
     }.get(dotted, ())
+    if not replaced:
+        return
     *sections, _ = dotted.split(".")
     for section in sections[:-1]:
         inner = tables.get(section)
         tables = inner if isinstance(inner, dict) else {}
     table = tables.get(sections[-1])
-    if replaced and isinstance(table, dict):
+    if isinstance(table, dict):
         tables[sections[-1]] = {k: v for k, v in table.items() if k not in replaced}
 
 

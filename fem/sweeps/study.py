@@ -1,9 +1,10 @@
 """Study files: a base case and a grid of keys, and the cases they stand for.
 
 A study file is TOML: ``base = "case.toml"`` (or a name that the caller knows a case file of), a
-table ``[grid]`` of dotted case keys to lists (the full product is run) and optionally tables
-``[[case]]`` of dotted keys to single values, each combined with the whole grid. ``[names]`` may
-give short names to long keys for the folders.
+table ``[grid]`` of dotted case keys to lists (the full product is run; a list of a section holds
+tables, whose keys change together) and optionally tables ``[[case]]`` of dotted keys to single
+values, each combined with the whole grid. ``[names]`` may give short names to long keys for the
+folders.
 """
 
 import hashlib
@@ -99,7 +100,7 @@ class Study:
         for key, values in reversed(self.grid.items()):
             number, place = divmod(number, len(values))
             chosen[key] = values[place]
-        return {key: chosen[key] for key in self.grid} | self.extra[number]
+        return _of_sections({key: chosen[key] for key in self.grid}) | self.extra[number]
 
     def _case(self, overrides: Mapping[str, Any]) -> Case:
         """The case of a combination; files that the study names are looked for beside it."""
@@ -145,7 +146,8 @@ def read_study(path: str | Path, bases: Mapping[str, Path] | None = None) -> Stu
     if not isinstance(extra, list) or not all(isinstance(table, dict) for table in extra):
         _refuse(path, "case", describe(extra), "tables [[case]] of case keys")
     extra = [_flat(table) for table in extra]
-    keys = list(dict.fromkeys([*grid, *itertools.chain(*extra)]))
+    parts = [_of_sections({name: value}) for name, values in grid.items() for value in values]
+    keys = list(dict.fromkeys([*grid, *itertools.chain(*parts, *extra)]))
     names = _short_names(path, tables.get("names", {}), keys)
     known = dict(bases or {}).get(base, path.parent / base)
     return Study(path=path, base=known, grid=grid, extra=extra, names=names)
@@ -187,6 +189,12 @@ def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
         else:
             flat[f"{prefix}{key}"] = value
     return flat
+
+
+def _of_sections(chosen: dict[str, Any]) -> dict[str, Any]:
+    """Values of a combination, the tables of sections as their keys."""
+    parts = [{key: value} if "." in key else _flat({key: value}) for key, value in chosen.items()]
+    return {key: value for part in parts for key, value in part.items()}
 
 
 def _folder_names(overrides: list[dict[str, Any]], names: Mapping[str, str]) -> list[str]:

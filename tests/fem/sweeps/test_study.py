@@ -27,6 +27,20 @@ def test_the_grid_is_the_full_product_in_the_order_of_the_file(write_study):
     assert len({case.name for case in cases}) == 4
 
 
+def test_the_keys_of_a_section_change_together(write_study):
+    path = write_study(
+        'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0]\n'
+        "block = [{height_mm = 7.0}, {height_mm = 9.0, blocks = 2}]"
+    )
+    cases = read_study(path).cases()
+    assert [c.case.block.blocks for c in cases] == [1, 2, 1, 2]
+    assert cases[1].overrides == {
+        "loading.velocity_mm_per_s": 7.0,
+        "block.height_mm": 9.0,
+        "block.blocks": 2,
+    }
+
+
 def test_each_extra_case_is_combined_with_the_grid(write_study):
     path = write_study(
         'base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 50.0]\n'
@@ -56,6 +70,7 @@ def test_a_study_without_grid_is_its_base_case(write_study):
         ('base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7.0, 7.0]', "twice"),
         ('base = "case.toml"\n[grid]\n"loading.velocity_mm_per_s" = [7, 7.0]', "twice"),
         ('base = "case.toml"\ncase = 3', r"tables \[\[case\]\]"),
+        ('base = "case.toml"\n[grid]\nblock = [1, 2]', "block: found 1, expected"),
         ('base = "case.toml"\ngrid = 5', "grid: found 5, expected a table"),
         ('base = "case.toml"\nnames = "abc"', 'names: found "abc", expected a table'),
         ('base = "case.toml"\n[names]\n"friction.law" = "law"', "does not vary"),
