@@ -83,10 +83,8 @@ def _guarded(arguments: argparse.Namespace) -> int:
 
 
 def _parser(command: str) -> argparse.ArgumentParser:
-    parser = _Parser(
-        prog="treadfem",
-        description="Sliding rubber tread block with friction and heat.",
-    )
+    about = "Sliding rubber tread block with friction and heat."
+    parser = _Parser(prog="treadfem", description=about)
     parser.add_argument("--version", action="version", version=f"treadfem {version_of()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_run(commands)
@@ -111,6 +109,10 @@ def _add_case_arguments(parser: argparse.ArgumentParser) -> None:
         help="set a key of the case; may be repeated",
     )
     _add_accept_unusual(parser)
+
+
+def _add_output(parser: argparse.ArgumentParser, metavar: str, text: str) -> None:
+    parser.add_argument("-o", "--output", metavar=metavar, help=text)
 
 
 def _add_accept_unusual(parser: argparse.ArgumentParser) -> None:
@@ -145,9 +147,7 @@ def _load(arguments: argparse.Namespace) -> Case:
 def _add_run(commands: Any) -> None:
     parser = commands.add_parser("run", help="simulate a case", description="Simulate a case.")
     _add_case_arguments(parser)
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", help="folder of the results (default: results/CASE)"
-    )
+    _add_output(parser, "DIR", "folder of the results (default: results/CASE)")
     parser.add_argument(
         "--resume",
         action="store_true",
@@ -160,9 +160,8 @@ def _add_run(commands: Any) -> None:
 
 
 def _add_strict(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--strict", action="store_true", help="end with code 4 if a result comes with a warning"
-    )
+    text = "end with code 4 if a result comes with a warning"
+    parser.add_argument("--strict", action="store_true", help=text)
 
 
 def _run(arguments: argparse.Namespace) -> int:
@@ -260,11 +259,8 @@ def _code(summary: dict[str, Any], *, said: Sequence[str], arguments: argparse.N
 
 def _summary_table(summary: dict[str, Any]) -> str:
     width = max(map(len, summary), default=0)
-    return "\n".join(f"  {key:<{width}}  {_shown(value)}" for key, value in summary.items())
-
-
-def _shown(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    shown = {k: f"{v:.6g}" if isinstance(v, float) else str(v) for k, v in summary.items()}
+    return "\n".join(f"  {key:<{width}}  {text}" for key, text in shown.items())
 
 
 # -- sweep -------------------------------------------------------------------------------------
@@ -274,22 +270,16 @@ def _add_sweep(commands: Any) -> None:
     text = "Run all cases of a study file in parallel."
     parser = commands.add_parser("sweep", help="run a study", description=text)
     parser.add_argument("study", metavar="STUDY.toml", help="study file: base case and grid")
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", help="folder of the results (default: results/STUDY)"
-    )
+    _add_output(parser, "DIR", "folder of the results (default: results/STUDY)")
     place = parser.add_mutually_exclusive_group()
-    place.add_argument(
-        "--workers", metavar="N", type=int, help="local processes (default: one per core)"
-    )
-    place.add_argument(
-        "--scheduler", metavar="tcp://host:port", help="dask scheduler to use instead"
-    )
-    parser.add_argument(
-        "--resume", action="store_true", help="keep the cases that are finished already"
-    )
-    parser.add_argument(
-        "--yes", action="store_true", help="begin a study of more than 1000 cases without asking"
-    )
+    text = "local processes (default: one per core)"
+    place.add_argument("--workers", metavar="N", type=int, help=text)
+    text = "dask scheduler to use instead"
+    place.add_argument("--scheduler", metavar="tcp://host:port", help=text)
+    text = "keep the cases that are finished already"
+    parser.add_argument("--resume", action="store_true", help=text)
+    text = "begin a study of more than 1000 cases without asking"
+    parser.add_argument("--yes", action="store_true", help=text)
     _add_strict(parser)
     _add_accept_unusual(parser)
     parser.set_defaults(command=_sweep)
@@ -343,12 +333,7 @@ def _add_compare(commands: Any) -> None:
     parser = commands.add_parser("compare", help="compare with measurements", description=text)
     parser.add_argument("measured", metavar="MEASURED.csv", help="profiles, or a row per test")
     parser.add_argument("results", metavar="RESULTS_DIR", help="folder of a sweep or a run")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        help="folder of tables and pictures (default: results/comparison)",
-    )
+    _add_output(parser, "DIR", "folder of tables and pictures (default: results/comparison)")
     parser.add_argument(
         "--pyrometer",
         action="store_true",
@@ -380,10 +365,9 @@ def _compare(arguments: argparse.Namespace) -> int:
 
 
 def _add_check(commands: Any) -> None:
+    text = "Check a case file and print it with every key as it would be used."
     parser = commands.add_parser(
-        "check",
-        help="check a case and print it resolved",
-        description="Check a case file and print it with every key as it would be used.",
+        "check", help="check a case and print it resolved", description=text
     )
     _add_case_arguments(parser)
     parser.set_defaults(command=_check)
@@ -403,24 +387,17 @@ def _check(arguments: argparse.Namespace) -> int:
 
 
 def _add_template(commands: Any) -> None:
-    parser = commands.add_parser(
-        "template",
-        help="print a commented file to start from",
-        description="Print a commented case or study file that runs as it is.",
-    )
+    text = "Print a commented case or study file that runs as it is."
+    what = "print a commented file to start from"
+    parser = commands.add_parser("template", help=what, description=text)
     parser.add_argument("kind", nargs="?", choices=["case", "study"], default="case")
     parser.set_defaults(command=_template)
 
 
 def _template(arguments: argparse.Namespace) -> int:
-    if arguments.kind == "study":
-        from fem.case import study_template
+    from fem.case import case_template, study_template
 
-        sys.stdout.write(study_template())
-    else:
-        from fem.case import case_template
-
-        sys.stdout.write(case_template())
+    sys.stdout.write(study_template() if arguments.kind == "study" else case_template())
     return DONE
 
 
@@ -440,19 +417,13 @@ def _add_calibrate(commands: Any, *, wanted: bool) -> None:
 
 
 def _add_export(commands: Any) -> None:
-    parser = commands.add_parser(
-        "export",
-        help="write a case as an input deck of CalculiX",
-        description="Write a case as an input deck of CalculiX: mesh, rubber, road, constant "
-        "friction, pressing and sliding.",
-    )
+    what = "write a case as an input deck of CalculiX"
+    text = f"W{what[1:]}: mesh, rubber, road, constant friction, pressing and sliding."
+    parser = commands.add_parser("export", help=what, description=text)
     _add_case_arguments(parser)
-    parser.add_argument(
-        "--format", choices=["inp"], default="inp", help="inp: CalculiX, in ABAQUS keywords"
-    )
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", help="file of the deck (default: CASE.inp, here)"
-    )
+    text = "inp: CalculiX, in ABAQUS keywords"
+    parser.add_argument("--format", choices=["inp"], default="inp", help=text)
+    _add_output(parser, "FILE", "file of the deck (default: CASE.inp, here)")
     parser.set_defaults(command=_export)
 
 

@@ -19,7 +19,7 @@ from calibration.data import DataError
 from calibration.fitting import FitResult, Loss, Problem, fit, refuse_no_fit, stage
 from calibration.friction.curves import HUEMER_SCALE, FrictionCurve, forms
 from calibration.friction.data import FrictionData, read_friction
-from contact.friction import FrictionLaw, shifted
+from contact.friction import FrictionLaw, ThermalFriction, shifted
 from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.wlf import WLF
@@ -199,12 +199,7 @@ def _completed(
     own = {name: result.values[name] for name in form.names}
     speed = _shifted_speed(data, wlf, T_ref_C)
     floors = _floors(data, speed)
-    try:
-        friction = shifted(form.build(own, **floors), wlf, T_ref_C)
-    except ValueError as error:
-        found = f"data whose best {law} fit is no admissible law ({error})"
-        expected = "friction over a wider range of speed and pressure, or another law"
-        raise DataError(file=data.table.file, found=found, expected=expected) from None
+    friction = _law_of(partial(form.build, own, **floors), wlf, T_ref_C, law, data.table.file)
     section = {
         "law": law,
         **own,
@@ -231,6 +226,17 @@ def _completed(
         section={"friction": section},
         warnings=(*result.warnings, *_data_warnings(data, wlf), *negative),
     )
+
+
+def _law_of(
+    build: Callable[[], FrictionLaw], wlf: WLF | None, T_ref_C: float, law: str, file: str
+) -> ThermalFriction:
+    try:
+        return shifted(build(), wlf, T_ref_C)
+    except ValueError as error:
+        found = f"data whose best {law} fit is no admissible law ({error})"
+        expected = "friction over a wider range of speed and pressure, or another law"
+        raise DataError(file=file, found=found, expected=expected) from None
 
 
 def _shift_keys(data: FrictionData, wlf: WLF | None, T_ref_C: float) -> dict[str, float]:
