@@ -378,7 +378,7 @@ def test_run_that_fails_behind_a_figure_is_said_in_one_line(tmp_path, monkeypatc
     def fails(number, directory, measured=None):
         raise StudyError("v_7: ValueError: no such thing")
 
-    monkeypatch.setattr("validation.paper.figures.make_figure", fails)
+    monkeypatch.setattr("validation.paper.make_figure", fails)
     assert command("figure", "11", "-o", tmp_path) == 3
     assert capsys.readouterr().err == "treadfem: fig11: v_7: ValueError: no such thing\n"
 
