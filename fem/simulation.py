@@ -228,6 +228,7 @@ def _summary(run: Run, outcome: Outcome) -> dict[str, Any]:
         "program_version": program_version(),
         "sliding_regime": regime.name,
         "stick_slip_cycles": regime.cycles,
+        **run.wear.summary(),
         **run.pyrometer.summary(),
         **block_summaries(history, mechanics.mesh.blocks),
         "warnings": [*case.warnings, *regime.warnings, *window_warnings(case, run.history.rows)],

@@ -262,6 +262,44 @@ def test_what_wears_off_is_the_coefficient_times_the_friction_work(two_contacts)
     np.testing.assert_allclose(depth, 1e3 * 2.15e-6 * energy, rtol=1e-12)
 
 
+def test_wear_is_linear_in_its_coefficient_and_changes_nothing_else():
+    phases = (PRESS, slide(300.0, distance_mm=1.0))
+    one, three = (simulate(event(*phases, wear={"coefficient_mm3_per_J": k})) for k in (2e-3, 6e-3))
+    ratio = three.boundary["wear_depth_um"] / one.boundary["wear_depth_um"]
+    np.testing.assert_allclose(ratio.dropna(), 3.0, rtol=1e-12)
+    assert three.summary["wear_volume_mm3_per_mm"] == pytest.approx(
+        3.0 * one.summary["wear_volume_mm3_per_mm"], rel=1e-12
+    )
+    assert three.summary["wear_front_share"] == pytest.approx(one.summary["wear_front_share"])
+    columns = ["friction_force_N_per_mm", "T_max_C", "friction_dissipation_mJ_per_mm"]
+    assert three.history[columns].equals(one.history[columns])
+
+
+def test_what_wears_off_does_not_depend_on_the_mesh():
+    """In all; over the first 3 mm, where the block takes up its deformation."""
+    volumes = []
+    for cells in (16, 32):
+        mesh = {
+            "cells_x": cells,
+            "cells_y": cells // 2,
+            "smallest_x_mm": 10.0 / cells,
+            "smallest_y_mm": 6.4 / cells,
+        }
+        wear, block = {"coefficient_mm3_per_J": 2e-3}, {"mesh": mesh}
+        result = simulate(event(PRESS, slide(300.0, distance_mm=3.0), wear=wear, block=block))
+        volumes.append(result.summary["wear_volume_mm3_per_mm"])
+    assert volumes[0] == pytest.approx(volumes[1], rel=0.02)
+
+
+def test_the_front_edge_is_the_leading_fifth_and_the_leading_face():
+    """Of a rigid block, which wears alike along the bottom, and not at the faces."""
+    mesh = {"cells_x": 40, "cells_y": 4, "smallest_x_mm": 0.5, "smallest_y_mm": 2.0}
+    phases, block = (PRESS, slide(-300.0, distance_mm=1.0)), {"rigid": True, "mesh": mesh}
+    result = simulate(event(*phases, wear={"coefficient_mm3_per_J": 2e-3}, block=block))
+    # With half a cell behind the limit.
+    assert result.summary["wear_front_share"] == pytest.approx(0.2 + 0.25 / 20.0, abs=2e-3)
+
+
 def test_a_slide_that_is_cut_in_two_is_one_slide():
     whole = simulate(event(PRESS, slide(300.0, distance_mm=2.0)))
     parts = simulate(event(PRESS, slide(300.0, distance_mm=0.7), slide(300.0, distance_mm=1.3)))

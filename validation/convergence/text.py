@@ -1,11 +1,11 @@
 """The studies to the limit in Markdown, from their committed tables."""
 
 import itertools
-from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
 
+from validation.analysis import markdown_table
 from validation.convergence.onset import ONSET_MM
 from validation.convergence.table import DAMPING_FORCES, FORCES, PLATEN
 
@@ -50,7 +50,7 @@ def convergence_text(table: pd.DataFrame) -> str:
         "regularisation, snaps [%]",
         "iterations (rejected steps)",
     ]
-    return "\n\n".join([_markdown(columns, rows), *_differences(table), *_scatter(table)])
+    return "\n\n".join([markdown_table(columns, rows), *_differences(table), *_scatter(table)])
 
 
 def _cells(run: pd.Series) -> list[str]:
@@ -80,7 +80,7 @@ def _differences(table: pd.DataFrame) -> list[str]:
         if run["status"] == default["status"] == "ok":
             rows.append([name, *(_difference(key, run[key], default[key]) for key in _QUANTITIES)])
     heads = [name for name, _, _ in _QUANTITIES.values()]
-    return ["From the defaults to", _markdown(["change", *heads], rows)]
+    return ["From the defaults to", markdown_table(["change", *heads], rows)]
 
 
 def _difference(key: str, value: float, base: float) -> str:
@@ -114,7 +114,7 @@ def _ranges(runs: pd.DataFrame) -> str:
             cells.append(f"{low:{form}} to {high:{form}}{half}")
         rows.append(cells)
     heads = [f"{name} [{unit}]" for name, _, unit in _QUANTITIES.values()]
-    return _markdown(["mesh", "runs", *heads], rows)
+    return markdown_table(["mesh", "runs", *heads], rows)
 
 
 def _exceptions(table: pd.DataFrame) -> str:
@@ -169,7 +169,7 @@ def onset_text(table: pd.DataFrame) -> str:
         "the limit in these steps",
         "platen",
     ]
-    return "\n\n".join([_markdown(columns, rows), _verdict(found)])
+    return "\n\n".join([markdown_table(columns, rows), _verdict(found)])
 
 
 _LOOKS = ("default", "short_steps", "limit")
@@ -288,8 +288,3 @@ def _at_most(table: pd.DataFrame, rows: pd.Series, column: str) -> int:
 def _factor(factor: float) -> str:
     """E.g. ``× 3``, ``/ 100``; the default is ``× 1``."""
     return f"× {factor:g}" if factor >= 1.0 else f"/ {1.0 / factor:.3g}"
-
-
-def _markdown(columns: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    lines = [columns, ["---" for _ in columns], *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)

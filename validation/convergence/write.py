@@ -5,20 +5,21 @@
 without folders it renews the block from the tables that are there.
 """
 
-import re
 import sys
 from pathlib import Path
 
 import pandas as pd
 
 from fem.files import write_table, write_text
+from validation.analysis import with_block
 from validation.convergence.onset import swept_runs
 from validation.convergence.robustness import TABLE as ROBUSTNESS
 from validation.convergence.table import CONVERGENCE, ONSET, convergence_table, onset_table
 from validation.convergence.text import convergence_text, onset_text, robustness_text
 
 PAGE = Path(__file__).parents[2] / "docs" / "verification.md"
-BEGIN, END = "<!-- convergence:begin -->", "<!-- convergence:end -->"
+#: Its part that is written here.
+BLOCK = "convergence"
 
 
 def write_tables(convergence: Path, onset: Path) -> None:
@@ -48,25 +49,11 @@ def block() -> str:
     )
 
 
-def with_block(page: str, text: str) -> str:
-    """The page with another text between its markers.
-
-    Raises
-    ------
-    ValueError
-        If the markers are not there once.
-    """
-    parts = re.split(f"({BEGIN}\n|{END})", page)
-    if len(parts) != 5:
-        raise ValueError(f"{PAGE.name} has to have {BEGIN} and {END} once each")
-    return "".join([*parts[:2], text, *parts[3:]])
-
-
 def main(folders: list[str]) -> None:
     """Renew the tables, if there are folders, and the page."""
     if folders:
         write_tables(*map(Path, folders))
-    write_text(PAGE, with_block(PAGE.read_text(encoding="utf-8"), block()))
+    write_text(PAGE, with_block(PAGE.read_text(encoding="utf-8"), BLOCK, block()))
     print(f"{PAGE}: renewed from {CONVERGENCE.name}, {ONSET.name} and {ROBUSTNESS.name}")
 
 

@@ -92,6 +92,30 @@ def _draw_depth(axes: Axes, result: Result) -> None:
 
 
 @styled
+def draw_wear(result: Result) -> Figure:
+    """Draw what wore off along the bottom, and off the leading face, which rolls under."""
+    figure = new_figure(PAGE_WIDTH, 65.0)
+    bottom, face = figure.subplots(1, 2, sharey=True, width_ratios=(2.0, 1.0))
+    chains = result.boundary.groupby(["block", "chain"], sort=False)
+    for (_, name), chain in chains:
+        if str(name).startswith("bottom"):
+            bottom.plot(chain["X_mm"], chain["wear_depth_um"], color=VERMILLION)
+        elif name == "leading face":
+            face.plot(chain["s_mm"], chain["wear_depth_um"], color=VERMILLION)
+    share = result.summary["wear_front_share"]
+    bottom.set(
+        xlabel="$X$ from the trailing to the leading corner [mm]",
+        ylabel="wear [µm]",
+        title=f"Bottom; {share:.0%} of the volume at the front edge",
+    )
+    face.set(xlabel="up the face from the corner [mm]", title="Leading face")
+    for axes in (bottom, face):
+        axes.grid(True)
+        axes.set_ylim(bottom=0.0)
+    return figure
+
+
+@styled
 def draw_pyrometer(result: Result) -> Figure:
     """Draw what the pyrometer reads along the bottom beside the profile at the end of contact."""
     table, given = result.pyrometer, result.case.pyrometer

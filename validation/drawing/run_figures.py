@@ -16,7 +16,7 @@ from fem.results import (
     read_summary,
     read_table,
 )
-from validation.drawing.event_panels import draw_event, draw_pyrometer, write_animation
+from validation.drawing.event_panels import draw_event, draw_pyrometer, draw_wear, write_animation
 from validation.drawing.history_panels import (
     draw_contact,
     draw_forces,
@@ -32,8 +32,8 @@ from validation.drawing.style import PAGE_WIDTH, new_figure, save, styled
 
 def write_run_figures(directory: str | Path) -> list[Path]:
     """Draw what a run's folder holds into its `figures`: `history`, `surface`, `onset`,
-    `final_state`; of an event also `event` and the animation `contact.gif`, of one with a
-    pyrometer `pyrometer`.
+    `final_state`; of an event also `event` and the animation `contact.gif`, of a case with
+    a pyrometer `pyrometer`, with a coefficient of wear `wear`.
 
     Parameters
     ----------
@@ -65,6 +65,8 @@ def write_run_figures(directory: str | Path) -> list[Path]:
         paths.append(write_animation(result, figures / "contact.gif"))
     if result.pyrometer is not None:
         paths.append(save(draw_pyrometer(result), figures / "pyrometer.png"))
+    if "wear_depth_um" in result.boundary and result.summary["wear_volume_mm3_per_mm"]:
+        paths.append(save(draw_wear(result), figures / "wear.png"))
     if result.snapshots:
         paths.append(save(draw_final_state(result), figures / "final_state.png"))
     return paths

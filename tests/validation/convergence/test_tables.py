@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from fem.sweeps.study import StudyCase
+from validation.analysis import with_block
 from validation.convergence.onset import SweptRun
 from validation.convergence.table import (
     CONVERGENCE,
@@ -22,7 +23,7 @@ from validation.convergence.text import (
     onset_text,
     robustness_text,
 )
-from validation.convergence.write import BEGIN, END, PAGE, block, with_block
+from validation.convergence.write import BLOCK, PAGE, block
 from validation.studies import cases_of
 
 VARIED = {
@@ -66,13 +67,7 @@ def test_the_committed_table_has_every_run_of_its_study_in_order(path):
 
 def test_the_page_says_what_the_command_makes_of_the_tables():
     page = PAGE.read_text(encoding="utf-8")
-    assert with_block(page, block()) == page
-
-
-def test_a_page_without_its_markers_is_refused():
-    with pytest.raises(ValueError, match="once each"):
-        with_block(f"{BEGIN}\n", "text")
-    assert with_block(f"a\n{BEGIN}\nold\n{END}\nb", "new\n") == f"a\n{BEGIN}\nnew\n{END}\nb"
+    assert with_block(page, BLOCK, block()) == page
 
 
 def test_every_check_of_the_page_is_a_test():

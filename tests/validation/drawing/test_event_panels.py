@@ -6,7 +6,7 @@ from PIL import Image
 from fem import simulate
 from tests.fem.test_events import LIFT, PRESS, event, slide
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
-from validation.drawing.event_panels import draw_event, draw_pyrometer, write_animation
+from validation.drawing.event_panels import draw_event, draw_pyrometer, draw_wear, write_animation
 
 
 @pytest.fixture(scope="module")
@@ -19,12 +19,13 @@ def result():
         block={"rigid": True},
         output={"snapshots": 4},
         pyrometer={"gap_mm": 5.0, "spot_mm": 2.0},
+        wear={"coefficient_mm3_per_J": 2e-3},
     )
     return simulate(case)
 
 
 def test_pictures_of_an_event_are_readable(result):
-    for figure in (draw_event(result, result.contacts), draw_pyrometer(result)):
+    for figure in (draw_event(result, result.contacts), draw_pyrometer(result), draw_wear(result)):
         assert_nothing_overlaps(figure)
         assert_labelled(figure)
 
