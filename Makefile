@@ -11,7 +11,7 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence braking blocks clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence braking blocks memory clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
@@ -25,10 +25,11 @@ help:
 	@echo "make claims     the paper's statements against the simulation, one by one"
 	@echo "make sensitivity  what the paper leaves open, one parameter at a time"
 	@echo "make report     all of that in one HTML page, $(RESULTS)/report.html"
-	@echo "make robustness  108 cases from easy to extreme; rewrites validation/robustness.csv and docs/verification.md"
+	@echo "make robustness  108 cases from easy to extreme, elastic and viscoelastic; rewrites their tables and docs/verification.md"
 	@echo "make convergence  to the limit of damping and steps; rewrites its tables and docs/verification.md"
 	@echo "make braking    ten contacts of an ABS event with its pictures, into $(RESULTS)/abs_braking"
 	@echo "make blocks     plain, chamfered and siped blocks and two in a row side by side, into $(RESULTS)/blocks"
+	@echo "make memory     slides and an ABS event with rubber that remembers; rewrites validation/memory_*.csv"
 	@echo "make clean      remove results and caches (make distclean: .venv too)"
 
 $(READY): setup.cfg pyproject.toml constraints.txt
@@ -97,6 +98,9 @@ report: figures claims sensitivity
 robustness: $(READY)
 	$(BIN)/treadfem sweep validation/studies/robustness.toml -o $(RESULTS)/robustness --resume
 	$(BIN)/python -m validation.convergence.robustness $(RESULTS)/robustness/summary.csv
+	$(BIN)/treadfem sweep validation/studies/robustness.toml --base validation/studies/viscoelastic_block.toml \
+	  -o $(RESULTS)/robustness_viscoelastic --resume --accept-unusual || test $$? = 3
+	$(BIN)/python -m validation.convergence.robustness $(RESULTS)/robustness_viscoelastic/summary.csv viscoelastic
 	$(BIN)/python -m validation.convergence.write
 
 # A case that does not converge (exit code 3) is a row of the tables too.
@@ -111,6 +115,11 @@ braking: $(READY)
 blocks: $(READY)
 	$(BIN)/treadfem sweep validation/studies/blocks.toml -o $(RESULTS)/blocks --resume
 	$(BIN)/python -m validation.tread_blocks $(RESULTS)/blocks
+
+memory: $(READY)
+	for study in memory_slides memory_event; do \
+	  $(BIN)/treadfem sweep validation/studies/$$study.toml -o $(RESULTS)/$$study --resume --accept-unusual || exit; done
+	$(BIN)/python -m validation.bulk_memory $(RESULTS)/memory_slides $(RESULTS)/memory_event -o $(RESULTS)
 
 clean:
 	rm -rf $(RESULTS) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks

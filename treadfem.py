@@ -271,6 +271,7 @@ def _add_sweep(commands: Any) -> None:
     parser = commands.add_parser("sweep", help="run a study", description=text)
     parser.add_argument("study", metavar="STUDY.toml", help="study file: base case and grid")
     _add_output(parser, "DIR", "folder of the results (default: results/STUDY)")
+    parser.add_argument("--base", metavar="CASE.toml", help="another base case for the grid")
     place = parser.add_mutually_exclusive_group()
     text = "local processes (default: one per core)"
     place.add_argument("--workers", metavar="N", type=int, help=text)
@@ -299,6 +300,7 @@ def _sweep(arguments: argparse.Namespace) -> int:
                 scheduler=arguments.scheduler,
                 resume=arguments.resume,
                 bases=BASES,
+                base=arguments.base,
                 draw=draw_missing,
                 progress=bar,
                 confirm=lambda size: arguments.yes or _agreed(size),

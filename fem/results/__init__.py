@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from fem.results.boundary import BoundaryContact, boundary_table
     from fem.results.checkpoint import CHECKPOINT_FILE, Checkpoint, CheckpointError, notes
     from fem.results.columns import HISTORY, SUMMARY, SURFACE
+    from fem.results.contacts import contacts_table
     from fem.results.fitted_window import (
         contact_columns,
         rubber_columns,

@@ -113,7 +113,11 @@ class Study:
         return Case.from_toml(self.base, beside)
 
 
-def read_study(path: str | Path, bases: Mapping[str, Path] | None = None) -> Study:
+def read_study(
+    path: str | Path,
+    bases: Mapping[str, Path] | None = None,
+    base: str | Path | None = None,
+) -> Study:
     """Read a study file.
 
     Parameters
@@ -122,6 +126,8 @@ def read_study(path: str | Path, bases: Mapping[str, Path] | None = None) -> Stu
         The TOML file.
     bases : mapping, optional
         Case files that a study may name by a word, e.g. ``introductory``.
+    base : str or Path, optional
+        Another base case for its grid.
 
     Raises
     ------
@@ -133,9 +139,9 @@ def read_study(path: str | Path, bases: Mapping[str, Path] | None = None) -> Stu
     for key in tables:
         if key not in _KEYS:
             _refuse(path, key, "an unknown key", "one of " + ", ".join(_KEYS))
-    base, grid = tables.get("base"), tables.get("grid", {})
-    if not isinstance(base, str):
-        _refuse(path, "base", describe(base), "the name of a case file")
+    own, grid = tables.get("base"), tables.get("grid", {})
+    if not isinstance(own, str):
+        _refuse(path, "base", describe(own), "the name of a case file")
     if not isinstance(grid, dict):
         _refuse(path, "grid", describe(grid), "a table [grid] of case keys to lists")
     grid = _flat(grid)
@@ -149,7 +155,7 @@ def read_study(path: str | Path, bases: Mapping[str, Path] | None = None) -> Stu
     parts = [_of_sections({name: value}) for name, values in grid.items() for value in values]
     keys = list(dict.fromkeys([*grid, *itertools.chain(*parts, *extra)]))
     names = _short_names(path, tables.get("names", {}), keys)
-    known = dict(bases or {}).get(base, path.parent / base)
+    known = dict(bases or {}).get(own, path.parent / own) if base is None else Path(base)
     return Study(path=path, base=known, grid=grid, extra=extra, names=names)
 
 

@@ -43,6 +43,7 @@ def sweep(
     scheduler: str | None = None,
     resume: bool = False,
     bases: Mapping[str, Path] | None = None,
+    base: str | Path | None = None,
     draw: Draw | None = None,
     progress: Callable[[SweepProgress], None] | None = None,
     confirm: Callable[[str], bool] | None = None,
@@ -66,6 +67,8 @@ def sweep(
         Keep cases that the same program has finished; otherwise all are run.
     bases : mapping, optional
         Case files that the study may name by a word.
+    base : str or Path, optional
+        Another base case for the study's grid.
     draw : callable, optional
         Function of a module that draws the figures of a run's folder which are not there yet; it
         is called for cases with ``output.figures``.
@@ -93,7 +96,7 @@ def sweep(
         If the scheduler went away; what was finished is in the table.
     """
     workers = number_of_workers(workers, scheduler)
-    read = read_study(study, bases)
+    read = read_study(study, bases, base)
     if read.number > MANY_CASES:
         size = size_of_study(read, workers)
         if confirm is None or not confirm(size):

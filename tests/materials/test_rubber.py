@@ -290,6 +290,44 @@ def test_felupe_agrees_on_a_branch_after_a_history():
     )
 
 
+def test_felupe_differs_in_finite_steps_because_it_differentiates_its_update():
+    """The model's stress holds Ci fixed; that of felupe is that of its update, off by O(dt).
+
+    Asked without a time step felupe gives the stress of a state: ours is that of its own new Ci in
+    steps of any length, felupe's is not that of felupe's.
+    """
+    F, past, tau = np.array([[1.3, 0.5], [0.0, 0.85]]), np.array([1.2, 0.1, 0.0, 0.9, 0.0]), 0.3
+    past = np.append(past, 1.0 / (past[0] * past[3] - past[1] ** 2))
+    stress_of_state, off = FelupeBranch(0.0), []
+
+    def energy(F, dt):
+        """Stored after a first-order update of Ci, written anew."""
+        whole = np.eye(3)
+        whole[:2, :2] = F
+        C = whole.T @ whole * np.linalg.det(whole) ** (-2.0 / 3.0)
+        Ci = past[[0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(3, 3) + dt / tau * C
+        Ci *= np.linalg.det(Ci) ** (-1.0 / 3.0)
+        return 0.35 * (np.trace(C @ np.linalg.inv(Ci)) - 3.0)
+
+    for dt in (0.03, 0.015, 0.0075, 0.00375):
+        P, _, state = FelupeBranch(dt)(F, past)
+        off.append(np.abs(P - stress_of_state(F, state)[0]).max() / np.abs(P).max())
+        slopes = [
+            (energy(F + h, dt) - energy(F - h, dt)) / 2e-6
+            for h in 1e-6 * np.eye(4).reshape(4, 2, 2)
+        ]
+        np.testing.assert_allclose(P, np.reshape(slopes, (2, 2)), rtol=1e-6, atol=1e-8)
+        rubber = Rubber(elastic=NeoHooke(G=1e-9), viscous=Prony(g=[0.7e9], tau_s=[tau]))
+        before = np.array([1.0, 1.0, 0.0, past[0], past[3], past[1]])[:, None]
+        step = rubber.step(before, dt)
+        Ci = step.end(deformation_of(F[None])).state[3:, 0]
+        own = np.array([Ci[0], Ci[2], 0.0, Ci[1], 0.0, 1.0 / (Ci[0] * Ci[1] - Ci[2] ** 2)])
+        ours = step_stress(step, F[None])[0]
+        np.testing.assert_allclose(ours, stress_of_state(F, own)[0], rtol=1e-6, atol=1e-8)
+    assert 0.02 < off[0] < 0.2
+    np.testing.assert_allclose(np.log2(np.divide(off[:-1], off[1:])), 1.0, atol=0.1)
+
+
 def test_felupe_agrees_on_stress_and_tangent_of_softening():
     import felupe
 

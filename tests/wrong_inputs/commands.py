@@ -7,7 +7,7 @@ import os
 from tests.wrong_inputs.cases import LOADING
 from tests.wrong_inputs.events import GOOD as EVENT
 from tests.wrong_inputs.events import PRESS, SLIDE, event
-from tests.wrong_inputs.rows import WrongInput, rig, study
+from tests.wrong_inputs.rows import SWEEP, WrongInput, rig, study
 
 RIGS = [
     rig("ambient in kelvin", "[rig]\nambient_C = 293\n", "which looks like kelvin (19.85 deg C)"),
@@ -61,6 +61,12 @@ STUDIES = [
         )
     ),
     study("base that is no file", 'base = "nowhere.toml"\n', "nowhere.toml", "no such file"),
+    WrongInput(
+        kind="study: another base that is no file",
+        words=(*SWEEP, "--base", "elsewhere.toml"),
+        files={"study.toml": 'base = "case.toml"\n', "case.toml": LOADING},
+        expected=("elsewhere.toml", "no such file"),
+    ),
 ]
 
 _PEAKS = "mean_pressure_N_per_mm2,v_mm_per_s,T_max_C\n0.2,300,35\n0.4,300,36\n"

@@ -1,7 +1,8 @@
-"""The committed table of the robustness study (``make robustness`` repeats the study).
+"""The committed tables of the robustness study (``make robustness`` repeats the study).
 
-``python -m validation.convergence.robustness SUMMARY.csv`` takes from the summary of its sweep the
-columns that tell how each case went, four digits each, and writes ``validation/robustness.csv``.
+``python -m validation.convergence.robustness SUMMARY.csv [VARIANT]`` takes from the summary of its
+sweep the columns that tell how each case went, four digits each, and writes
+``validation/robustness.csv`` or that of a variant: the same grid from another base case.
 """
 
 import sys
@@ -12,6 +13,9 @@ import pandas as pd
 from fem.files import write_table
 
 TABLE = Path(__file__).parents[1] / "robustness.csv"
+#: Rubber that damps its snaps itself, on the coarse mesh (`studies/viscoelastic_block.toml`).
+VISCOELASTIC = "viscoelastic"
+TABLES = {"": TABLE, VISCOELASTIC: TABLE.with_name("robustness_viscoelastic.csv")}
 #: What was varied, under shorter names.
 VARIED = {
     "rubber.compound": "compound",
@@ -51,12 +55,12 @@ def robustness_table(summary: pd.DataFrame) -> pd.DataFrame:
     return table
 
 
-def main(path: str) -> None:
-    """Write the committed table anew."""
+def main(path: str, variant: str = "") -> None:
+    """Write the committed table of a variant anew."""
     table = robustness_table(pd.read_csv(path))
-    write_table(TABLE, table)
-    print(f"{TABLE}: {len(table)} cases, {(table['status'] == 'ok').sum()} ok")
+    write_table(TABLES[variant], table)
+    print(f"{TABLES[variant]}: {len(table)} cases, {(table['status'] == 'ok').sum()} ok")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(*sys.argv[1:])

@@ -15,8 +15,24 @@ SMALL = {"cells_x": 24, "cells_y": 8, "smallest_x_mm": 0.4, "smallest_y_mm": 0.3
 TIMES = ("wall_s", "solver_s")
 
 
-def case_of(block, distance, *, rubber=None, **solver):
-    loading = {
+#: Rubber with branches and softening.
+MEMORY = {
+    "viscoelastic": {"g": [1.5, 0.4], "tau_s": [1e-4, 1e-2], "C1": 7.0, "C2_K": 120.0},
+    "mullins": {"r": 2.0, "m_N_per_mm2": 0.1},
+}
+#: Two contacts: the second one finds a used block.
+TWO_CONTACTS = {
+    "repeat": 2,
+    "phase": [
+        {"kind": "press", "mean_pressure_N_per_mm2": 0.25},
+        {"kind": "slide", "velocity_mm_per_s": 300.0, "distance_mm": 0.3},
+        {"kind": "lift", "time_s": 0.02},
+    ],
+}
+
+
+def case_of(block, distance, *, rubber=None, loading=None, **solver):
+    slide = {
         "mean_pressure_N_per_mm2": 0.25,
         "velocity_mm_per_s": 300.0,
         "distance_mm": distance,
@@ -24,7 +40,7 @@ def case_of(block, distance, *, rubber=None, **solver):
     output = {"snapshots": 3, "checkpoint_s": 0.0, "figures": False}
     return Case.from_dict(
         {
-            "loading": loading,
+            "loading": loading or slide,
             "block": block,
             "rubber": rubber or {},
             "solver": solver,
@@ -44,14 +60,8 @@ CASES = {
         viscous_distance_mm=1.0,
         edge_viscous_distance_mm=0.0,
     ),
-    "with a memory": case_of(
-        {"mesh": SMALL},
-        1.0,
-        rubber={
-            "viscoelastic": {"g": [1.5, 0.4], "tau_s": [1e-4, 1e-2], "C1": 7.0, "C2_K": 120.0},
-            "mullins": {"r": 2.0, "m_N_per_mm2": 0.1},
-        },
-    ),
+    "with a memory": case_of({"mesh": SMALL}, 1.0, rubber=MEMORY),
+    "an event with a memory": case_of({"mesh": SMALL}, None, rubber=MEMORY, loading=TWO_CONTACTS),
 }
 
 
@@ -238,9 +248,9 @@ def test_without_resume_an_old_checkpoint_is_not_used(run, tmp_path):
 def test_a_foreign_checkpoint_is_refused_before_anything_is_computed(rigid, run, tmp_path):
     case, _, files = run
     path = shutil.copy(files[2], tmp_path / CHECKPOINT_FILE)
-    other = case.with_overrides({"loading.distance_mm": 7.0, "block.rigid": rigid})
+    other = case.with_overrides({"heat.ambient_C": 7.0, "block.rigid": rigid})
     seen = []
-    with pytest.raises(CheckpointError, match=r"block\.rigid|loading\.distance_mm"):
+    with pytest.raises(CheckpointError, match=r"block\.rigid|heat\.ambient_C"):
         simulate(other, checkpoint=path, resume=True, progress=seen.append)
     assert seen == []
 

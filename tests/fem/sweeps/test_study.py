@@ -102,6 +102,17 @@ def test_a_base_may_be_a_name_that_the_caller_knows(write_study):
         read_study(path).cases()
 
 
+def test_the_grid_may_be_that_of_another_base(write_study, tmp_path):
+    path = write_study('base = "case.toml"\n[grid]\n"block.height_mm" = [7.0, 9.0]')
+    text = (tmp_path / "case.toml").read_text()
+    other = tmp_path / "other.toml"
+    other.write_text(f"{text}\n[wear]\ncoefficient_mm3_per_J = 1e-3\n")
+    own, found = read_study(path).cases(), read_study(path, base=other).cases()
+    assert [case.name for case in found] == [case.name for case in own]
+    assert [case.case.block.height_mm for case in found] == [7.0, 9.0]
+    assert {case.case.wear.coefficient_mm3_per_J for case in found} == {1e-3}
+
+
 def test_the_base_of_the_studies_is_the_introductory_example():
     from fem.case.case import Case
 
