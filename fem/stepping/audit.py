@@ -11,7 +11,7 @@ import numpy as np
 from fem.mechanics import platen_displacement
 from fem.mesh import BlockMesh
 from fem.stepping.balance import balance_error, share
-from fem.stepping.coupled_step import AcceptedStep
+from fem.stepping.coupled_state import AcceptedStep
 from fem.stepping.moment import Moment
 
 
@@ -110,23 +110,20 @@ def audited(
     start_weight : float
         Weight of the forces at its start in their mean over it [-].
     """
-    before, after, energies = step.before, step.after, step.energies
+    energies = step.energies
     force_x = float(step.evaluation.nodal[mesh.top, 0].sum())
     force_y = step.target.force
     if step.target.raised is not None:
         force_y = -float(step.evaluation.nodal[mesh.top, 1].sum())
-    lowered = platen_displacement(mesh, after.mechanics.u) - platen_displacement(
-        mesh, before.mechanics.u
-    )
+    sunk, sunk_n = (platen_displacement(mesh, s.mechanics.u) for s in (step.after, step.before))
     end_weight = 1.0 - start_weight
     work = (start_weight * audit.platen_force_x + end_weight * force_x) * step.target.sweep
-    work += (start_weight * audit.platen_force_y + end_weight * force_y) * lowered
+    work += (start_weight * audit.platen_force_y + end_weight * force_y) * (sunk - sunk_n)
     if not step.target.inertia:
         # The platen that stops the block takes what it had.
         work -= audit.kinetic
-    dissipated = step.power * step.target.dt
+    dissipated, viscous = step.power * step.target.dt, energies.viscous
     friction = float(np.sum(dissipated)) + step.self_friction
-    viscous = energies.viscous
     if step.relaxed:
         stored = energies.strain_energy + energies.kinetic - audit.strain_energy - audit.kinetic
         viscous = max(viscous, work - stored - friction - energies.rubber - energies.damage)

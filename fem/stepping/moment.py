@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Protocol
 
-from fem.stepping.coupled_step import AcceptedStep
+from fem.stepping.coupled_state import AcceptedStep
 from fem.stepping.phases import Phase
 
 

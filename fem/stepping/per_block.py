@@ -7,7 +7,7 @@ import pandas as pd
 
 from fem.mesh import BlockMesh
 from fem.results import excess_area, interior_peak
-from fem.stepping.coupled_step import RoadContact
+from fem.stepping.road_contact import RoadContact
 from fem.stepping.summary import last_values, sliding_means
 from materials.arrays import FloatArray
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from fem.results import BottomHistory, Snapshot
 from fem.stepping.audit import EnergyAudit
-from fem.stepping.coupled_step import CoupledState
+from fem.stepping.coupled_state import CoupledState
 from fem.stepping.pyrometer import Reading
 from fem.stepping.step_control import StepPlan
 from fem.stepping.wear import Wear

@@ -19,7 +19,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from fem.stepping.coupled_step import AcceptedStep, CoupledModel
+from fem.stepping.coupled_state import AcceptedStep
+from fem.stepping.coupled_step import CoupledModel
 
 #: Distance slid up to which damped steps are relaxed [mm]. A block of 8 mm slides in full after
 #: 2.8 mm.

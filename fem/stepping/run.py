@@ -15,7 +15,8 @@ from fem.case import Case
 from fem.mechanics import damping_lines
 from fem.results import OK, Checkpoint, Outcome, failed, stoppable
 from fem.stepping.audit import EnergyAuditor
-from fem.stepping.coupled_step import AcceptedStep, CoupledModel, RejectedStep
+from fem.stepping.coupled_state import AcceptedStep, RejectedStep
+from fem.stepping.coupled_step import CoupledModel
 from fem.stepping.model_parts import Progress
 from fem.stepping.moment import Moment, Observer
 from fem.stepping.observers import (

@@ -8,7 +8,8 @@ import pytest
 from fem import Case, Result, simulate
 from fem.mechanics.regularisation import snap_damping
 from fem.newton import Failure
-from fem.stepping.coupled_step import CoupledModel, RejectedStep
+from fem.stepping.coupled_state import RejectedStep
+from fem.stepping.coupled_step import CoupledModel
 from fem.stepping.model_parts import mesh_of
 from materials import WLF, NeoHooke, OgdenRoxburgh, Prony, Rubber
 from tests.fem.contact_steps import load_of, small_block, solved

@@ -4,7 +4,8 @@ import numpy as np
 
 from fem.case import Case
 from fem.results import Snapshot
-from fem.stepping.coupled_step import CoupledModel, CoupledState
+from fem.stepping.coupled_state import CoupledState
+from fem.stepping.coupled_step import CoupledModel
 from fem.stepping.moment import Moment
 from fem.stepping.phases import Phase
 

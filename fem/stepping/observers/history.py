@@ -10,7 +10,8 @@ from fem.mechanics import Strains, platen_displacement
 from fem.mesh import BlockMesh
 from fem.results import BoundaryContact, boundary_table, contact_columns, rubber_columns
 from fem.stepping.audit import EnergyAudit, EnergyAuditor
-from fem.stepping.coupled_step import AcceptedStep, CoupledModel, CoupledState
+from fem.stepping.coupled_state import AcceptedStep, CoupledState
+from fem.stepping.coupled_step import CoupledModel
 from fem.stepping.moment import Moment
 from fem.stepping.observers.wear import WearRecorder
 from fem.stepping.per_block import block_columns, temperature_columns

@@ -12,7 +12,7 @@ from fem.heat.state import HeatLoad
 from fem.mechanics.elements import Past, Q1P0Elements
 from fem.simulation import coupled_model
 from fem.stepping.audit import EnergyAudit, audited
-from fem.stepping.coupled_step import AcceptedStep, CoupledState
+from fem.stepping.coupled_state import AcceptedStep, CoupledState
 from fem.stepping.programme import programme
 from tests.fem.mechanics.linear_branch import LinearBranch
 from tests.fem.small_blocks import (

@@ -9,7 +9,7 @@ from fem import Case
 from fem.case.sections import Solver
 from fem.simulation import coupled_model
 from fem.stepping.audit import EnergyAudit, audited
-from fem.stepping.coupled_step import AcceptedStep
+from fem.stepping.coupled_state import AcceptedStep
 from fem.stepping.programme import programme
 
 AUDIT = EnergyAudit(work_in=10.0, friction=6.0, viscous=0.5, strain_energy=2.9, kinetic=0.5,

@@ -6,7 +6,7 @@ import pytest
 from fem import Case, newton
 from fem.simulation import coupled_model
 from fem.stepping.audit import EnergyAudit, audited
-from fem.stepping.coupled_step import AcceptedStep, RejectedStep
+from fem.stepping.coupled_state import AcceptedStep, RejectedStep
 from fem.stepping.programme import programme
 from fem.stepping.relaxation import LAST_LEVEL, relaxed
 

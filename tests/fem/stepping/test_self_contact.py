@@ -262,7 +262,7 @@ def test_self_friction_is_part_of_the_balances():
 
 def test_a_step_in_which_the_surface_passes_through_itself_is_rejected(monkeypatch):
     """And smaller ones are tried, until the run ends with that reason."""
-    monkeypatch.setattr("fem.stepping.coupled_step.crossing_depth", lambda *boundary: 1.5 * LARGEST)
+    monkeypatch.setattr("fem.stepping.self_contact.crossing_depth", lambda *boundary: 1.5 * LARGEST)
     run = simulate(Case.from_dict({
         "block": {
             "mesh": {"cells_x": 12, "cells_y": 5, "smallest_x_mm": 1.0, "smallest_y_mm": 1.0}
