@@ -10,11 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from contact.self_contact import Pairs, pair_geometry, segment_geometry
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 
 #: The cosine between the normals of a node and a segment that can meet is below this: they oppose
 #: each other. At the tip of a fold the boundary turns right round, so that the normal of one of the
@@ -58,7 +57,7 @@ class Boundary:
     orientation: int
     length: FloatArray
     size: FloatArray
-    joined: NDArray[np.bool_]
+    joined: BoolArray
 
     @classmethod
     def of(
@@ -67,7 +66,7 @@ class Boundary:
         orientation: int,
         points: FloatArray,
         size: FloatArray,
-        joined: NDArray[np.bool_] | None = None,
+        joined: BoolArray | None = None,
     ) -> Boundary:
         """Boundary of the reference coordinates `points` (n, 2) with local sizes (m,)."""
         joined = np.ones(len(nodes) - 1, dtype=bool) if joined is None else joined
@@ -114,9 +113,7 @@ def find_pairs(
     chain, n_n = x[boundary.nodes], x_n[boundary.nodes]
     now = segment_geometry(chain[place], chain[segment], chain[segment + 1], boundary.orientation)
     then = segment_geometry(n_n[place], n_n[segment], n_n[segment + 1], boundary.orientation)
-    size = np.minimum(
-        boundary.size[place], np.minimum(boundary.size[segment], boundary.size[segment + 1])
-    )
+    size = np.minimum.reduce([boundary.size[i] for i in (place, segment, segment + 1)])
     eligible = (
         (_facing(boundary, chain, place, now.n) < OPPOSING)
         & (np.abs(now.xi - 0.5) <= 0.5 + OVERHANG)
@@ -133,9 +130,7 @@ def find_pairs(
     place, segment = place[kept], segment[kept]
     return Pairs(
         place=place,
-        nodes=np.column_stack(
-            [boundary.nodes[place], boundary.nodes[segment], boundary.nodes[segment + 1]]
-        ),
+        nodes=np.column_stack([boundary.nodes[i] for i in (place, segment, segment + 1)]),
         xi_n=then.xi[kept],
         L_n=then.L[kept],
         stiffness=stiffness * boundary.length[place] / size[kept],
@@ -193,7 +188,7 @@ def followed(pairs: Pairs, found: Pairs, x: FloatArray, boundary: Boundary) -> P
     return _joined(pairs, ~left, found, missed)
 
 
-def _joined(a: Pairs, in_a: NDArray[np.bool_], b: Pairs, in_b: NDArray[np.bool_]) -> Pairs:
+def _joined(a: Pairs, in_a: BoolArray, b: Pairs, in_b: BoolArray) -> Pairs:
     """Chosen pairs of two sets."""
 
     def both(name: str) -> FloatArray:
@@ -202,9 +197,13 @@ def _joined(a: Pairs, in_a: NDArray[np.bool_], b: Pairs, in_b: NDArray[np.bool_]
     return Pairs(
         place=np.concatenate([a.place[in_a], b.place[in_b]]),
         nodes=np.concatenate([a.nodes[in_a], b.nodes[in_b]]),
-        xi_n=both("xi_n"), L_n=both("L_n"), stiffness=both("stiffness"), shear_n=both("shear_n"),
-        mu=a.mu, orientation=a.orientation,
-    )  # fmt: skip
+        xi_n=both("xi_n"),
+        L_n=both("L_n"),
+        stiffness=both("stiffness"),
+        shear_n=both("shear_n"),
+        mu=a.mu,
+        orientation=a.orientation,
+    )
 
 
 def pair_penetration(pairs: Pairs, x: FloatArray, boundary: Boundary) -> float:

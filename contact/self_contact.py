@@ -30,9 +30,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from materials.arrays import FloatArray, IntArray
+from materials.arrays import BoolArray, FloatArray, IntArray
 
 #: Tangential over normal stiffness [-]. Walls that meet along their length change between stick and
 #: slip for ever with 1. At the mean pressure a pair that sticks gives way by some thousandths of an
@@ -127,8 +126,8 @@ class PairForces:
     geometry: SegmentGeometry
     normal: FloatArray
     shear: FloatArray
-    pressed: NDArray[np.bool_]
-    sticks: NDArray[np.bool_]
+    pressed: BoolArray
+    sticks: BoolArray
     sense: FloatArray
     drag: FloatArray
     slip: FloatArray
@@ -139,7 +138,7 @@ class PairForces:
     grad_slip: FloatArray
 
     @property
-    def slipping(self) -> NDArray[np.bool_]:
+    def slipping(self) -> BoolArray:
         """Whether the friction limit is reached, (k,)."""
         return self.sense != 0.0
 
@@ -177,7 +176,7 @@ class PairMultipliers:
 
     normal: FloatArray
     shear: FloatArray
-    pressed: NDArray[np.bool_]
+    pressed: BoolArray
     sense: FloatArray
 
     def carried(self, old: Pairs, new: Pairs) -> PairMultipliers:

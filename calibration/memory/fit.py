@@ -91,10 +91,17 @@ def fit_viscoelastic(
     [0.8, 0.5, 2.0]
     """
     given: dict[str, Any] = {
-        "model": model, "mode": mode, "from_cycle": from_cycle, "shift": shift, "weights": weights,
-        "fixed": fixed, "vertical": vertical, "expansion_per_K": expansion_per_K,
-        "T_tolerance_K": T_tolerance_K, "T_ref_C": T_ref_C,
-    }  # fmt: skip
+        "model": model,
+        "mode": mode,
+        "from_cycle": from_cycle,
+        "shift": shift,
+        "weights": weights,
+        "fixed": fixed,
+        "vertical": vertical,
+        "expansion_per_K": expansion_per_K,
+        "T_tolerance_K": T_tolerance_K,
+        "T_ref_C": T_ref_C,
+    }
     options = {name: value for name, value in given.items() if value is not None}
     data = read_memory(table, **options)
     if isinstance(data, Moduli):

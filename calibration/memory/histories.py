@@ -7,7 +7,6 @@ from typing import Any, cast
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from calibration.data import Table, left_out
@@ -21,7 +20,7 @@ from calibration.rubber import (
     read_stress_table,
 )
 from materials import plausible as quantities
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray, IndexArray, WordArray
 from materials.homogeneous import branch_histories, reduced_steps
 from materials.hyperelastic_base import MODES, Mode
 from materials.prony import Prony
@@ -51,7 +50,7 @@ class History:
 
     name: str
     mode: Mode
-    here: NDArray[np.intp]
+    here: IndexArray
     time: FloatArray | None
     stretch: FloatArray
     stress: FloatArray
@@ -74,7 +73,7 @@ class Histories:
 
     tests: tuple[History, ...]
     table: Table
-    compared: NDArray[np.bool_]
+    compared: BoolArray
     about: dict[str, Any]
 
     @property
@@ -87,9 +86,12 @@ class Histories:
             mode[test.here] = test.mode
         at = self.compared
         return StressData(
-            stretch=stretch[at], stress=stress[at], mode=mode[at],
-            table=self.table.select(at), selection=self.about,
-        )  # fmt: skip
+            stretch=stretch[at],
+            stress=stress[at],
+            mode=mode[at],
+            table=self.table.select(at),
+            selection=self.about,
+        )
 
     @property
     def time(self) -> FloatArray | None:
@@ -99,7 +101,7 @@ class Histories:
         return self.table.numbers("time_s")
 
     @property
-    def names(self) -> NDArray[np.str_]:
+    def names(self) -> WordArray:
         """Name of the test of each row that is compared."""
         names = np.empty(len(self.table), dtype=object)
         for test in self.tests:
@@ -188,9 +190,11 @@ def _tests(source: Table, columns: dict[str, Any]) -> list[History]:
         here = here[_following(columns["stretch"][here], columns["stress"][here], len(source))]
         if here.size < _LEAST_ROWS:
             source.refuse_at(
-                int(here[-1]), "stretch", f"{here.size} rows of the test {name}",
+                int(here[-1]),
+                "stretch",
+                f"{here.size} rows of the test {name}",
                 f"at least {_LEAST_ROWS} of each",
-            )  # fmt: skip
+            )
         found.append(
             History(
                 name=name,
@@ -205,7 +209,7 @@ def _tests(source: Table, columns: dict[str, Any]) -> list[History]:
     return found
 
 
-def _following(stretch: FloatArray, stress: FloatArray, rows: int) -> NDArray[np.intp]:
+def _following(stretch: FloatArray, stress: FloatArray, rows: int) -> IndexArray:
     """Rows that follow the course of a test of a long record: evenly in rows, strain and stress."""
     if rows <= _MOST_ROWS:
         return np.arange(stretch.size)
@@ -215,21 +219,20 @@ def _following(stretch: FloatArray, stress: FloatArray, rows: int) -> NDArray[np
         travelled = travelled + way / max(way[-1], 1e-300)
     count = max(_LEAST_ROWS, stretch.size * _MOST_ROWS // rows)
     stops = np.linspace(0.0, travelled[-1], count)
-    chosen: NDArray[np.intp] = np.unique(
-        np.searchsorted(travelled, stops).clip(max=stretch.size - 1)
-    )
+    chosen: IndexArray = np.unique(np.searchsorted(travelled, stops).clip(max=stretch.size - 1))
     return chosen
 
 
-def _refuse_falling(source: Table, time: FloatArray, here: NDArray[np.intp]) -> None:
+def _refuse_falling(source: Table, time: FloatArray, here: IndexArray) -> None:
     steps = np.diff(time[here])
     if np.any(steps < 0.0):
         i = int(np.flatnonzero(steps < 0.0)[0])
         source.refuse_at(
-            int(here[i + 1]), "time_s",
+            int(here[i + 1]),
+            "time_s",
             f"{time[here[i + 1]]:g} after {time[here[i]]:g}",
             "times that do not fall (a column test tells several tests apart)",
-        )  # fmt: skip
+        )
     if not np.any(steps > 0.0):
         source.refuse_at(int(here[0]), "time_s", "one time", "times that go on")
 

@@ -6,14 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data import DataError
 from calibration.fitting import FitResult, Loss, Problem, check_stability, fit, minimise, stage
 from calibration.memory.histories import Histories, read_histories
 from calibration.rubber import STRESS_MODELS, Kinematics, StressModel, check_modulus, fitted_energy
 from fem.files import version_of
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 from materials.hyperelastic_base import Mode
 from materials.rubber import Rubber
 from materials.softening import OgdenRoxburgh
@@ -118,10 +117,14 @@ def _starts(law: StressModel, data: Histories, held: Mapping[str, float]) -> Flo
     lower, upper = law.bounds(points.kinematics)
     few = np.clip(few[np.all(np.isfinite(few), axis=1)], lower, upper)
     elastic = Problem(
-        names=law.names, observed=points.stress[virgin], lower=lower, upper=upper,
+        names=law.names,
+        observed=points.stress[virgin],
+        lower=lower,
+        upper=upper,
         predict=lambda theta: law.stress(theta, kin),
-        jacobian=lambda theta: law.jacobian(theta, kin), linear=law.linear,
-    ).fixed({name: value for name, value in held.items() if name in law.names})  # fmt: skip
+        jacobian=lambda theta: law.jacobian(theta, kin),
+        linear=law.linear,
+    ).fixed({name: value for name, value in held.items() if name in law.names})
     free = [name not in held for name in law.names]
     best = np.array([held.get(name, np.nan) for name in law.names])
     if any(free):
@@ -130,12 +133,14 @@ def _starts(law: StressModel, data: Histories, held: Mapping[str, float]) -> Flo
     largest = max(float(energy.strain_energy(t.stretch, t.mode).max()) for t in data.tests)
     softening = [
         (r, share * largest, beta)
-        for r in (1.3, 2.0, 4.0) for share in (0.03, 0.2, 1.0) for beta in (0.02, 0.3)
-    ]  # fmt: skip
+        for r in (1.3, 2.0, 4.0)
+        for share in (0.03, 0.2, 1.0)
+        for beta in (0.02, 0.3)
+    ]
     return np.array([[*best, *one] for one in softening])
 
 
-def _on_the_way_back(data: Histories) -> NDArray[np.bool_]:
+def _on_the_way_back(data: Histories) -> BoolArray:
     """Rows below the largest strain so far of their test, in tension or compression."""
     back = np.zeros(len(data.table), dtype=bool)
     for test in data.tests:
@@ -200,7 +205,10 @@ def _completed(law: StressModel, model: str, data: Histories, result: FitResult)
         },
         section={"rubber": {**law.section(model, values), "mullins": keys, "window": window}},
         warnings=(
-            *result.warnings, *more, *check_modulus(data.table, energy),
-            *stability.warnings, *stability.elsewhere,
+            *result.warnings,
+            *more,
+            *check_modulus(data.table, energy),
+            *stability.warnings,
+            *stability.elsewhere,
         ),
-    )  # fmt: skip
+    )

@@ -21,11 +21,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from calibration.fitting import Problem, minimise, stage
-from materials.arrays import FloatArray
+from materials.arrays import BoolArray, FloatArray
 
 NODES_PER_DECADE = 12
 _MOST_BRANCHES = 24  # that the search begins with
@@ -69,7 +68,7 @@ class MemoryCurve:
     lower: FloatArray
     upper: FloatArray
     starts: FloatArray
-    moduli: NDArray[np.bool_]
+    moduli: BoolArray
     tau_s: tuple[float, float]
     observed: FloatArray
     weights: FloatArray | None = None

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from calibration.data import DataError, Table, read_table
 from calibration.fitting import FitResult, Loss, Problem, fit, minimise, refuse_no_fit
@@ -22,7 +21,7 @@ from calibration.memory.viscoelastic import (
 from calibration.shifting import LOSS, MODULUS, TAN_DELTA, MasterCurve, one_sweep, shift_sweeps
 from calibration.wlf import fit_wlf
 from fem.files import version_of
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IntArray
 from materials.prony import Prony
 from materials.wlf import WLF
 
@@ -55,7 +54,7 @@ class Moduli:
     storage: FloatArray | None
     loss: FloatArray | None
     T_ref_C: float
-    rows: NDArray[np.int64]
+    rows: IntArray
     table: Table
     master: MasterCurve | None = None
     shift: WLF | None = None
@@ -73,9 +72,15 @@ class Moduli:
         order = np.argsort(omega, kind="stable")
         storage, loss = (None if y is None else y[order] for y in (self.storage, self.loss))
         return replace(
-            self, omega=omega[order], dT=self.dT[order], measured=self.measured[order],
-            storage=storage, loss=loss, rows=self.rows[order], shift=shift,
-        )  # fmt: skip
+            self,
+            omega=omega[order],
+            dT=self.dT[order],
+            measured=self.measured[order],
+            storage=storage,
+            loss=loss,
+            rows=self.rows[order],
+            shift=shift,
+        )
 
 
 def read_moduli(

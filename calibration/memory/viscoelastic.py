@@ -251,10 +251,13 @@ def _completed(work: HistoryFit, result: FitResult, found: dict[str, Any]) -> Fi
         metadata=metadata,
         section={"rubber": {**keys, "window": window}},
         warnings=(
-            *result.warnings, *correlation_warnings(independent),
-            *check_modulus(data.table, energy), *stability.warnings, *stability.elsewhere,
+            *result.warnings,
+            *correlation_warnings(independent),
+            *check_modulus(data.table, energy),
+            *stability.warnings,
+            *stability.elsewhere,
         ),
-    )  # fmt: skip
+    )
 
 
 def _temperature_notes(work: HistoryFit) -> list[str]:

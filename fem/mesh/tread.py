@@ -143,9 +143,13 @@ class _Sizes:
         rows = graded_coordinates(height, grading.cells_y, grading.smallest_y)
         x, y = np.diff(columns), np.diff(rows)
         return cls(
-            x=float(x[0]), y=float(y[0]), growth_x=float((x[-1] - x[0]) / length),
-            growth_y=float((y[-1] - y[0]) / height), columns=length - columns[::-1], rows=rows,
-        )  # fmt: skip
+            x=float(x[0]),
+            y=float(y[0]),
+            growth_x=float((x[-1] - x[0]) / length),
+            growth_y=float((y[-1] - y[0]) / height),
+            columns=length - columns[::-1],
+            rows=rows,
+        )
 
 
 class _Grid:
@@ -190,12 +194,15 @@ class _Grid:
             # Over a flat base the columns bend up slowly; over an arc they have to spread at once.
             beyond = 0.0 if slot.rounded else -reach * np.expm1(-above / reach)
             lean = slot.slope * (np.minimum(self.rows, base) + beyond)
-            thin = min(self.ends[2 * k + 1] - self.ends[2 * k],
-                       self.ends[2 * k + 3] - self.ends[2 * k + 2])  # fmt: skip
+            thin = min(
+                self.ends[2 * k + 1] - self.ends[2 * k], self.ends[2 * k + 3] - self.ends[2 * k + 2]
+            )
             widest = min(slot.width, SPREAD * thin) * slot.rounded
             spread = widest * -np.expm1(-above / widest) if widest else 0.0
-            walls += [slot.at + lean - 0.5 * slot.width - spread,
-                      slot.at + lean + 0.5 * slot.width + spread]  # fmt: skip
+            walls += [
+                slot.at + lean - 0.5 * slot.width - spread,
+                slot.at + lean + 0.5 * slot.width + spread,
+            ]
         walls.append(np.full_like(self.rows, self.shape.length))
         self._refuse_thin(walls)
         return walls
@@ -230,8 +237,7 @@ class _Grid:
             y.append(Y[1:-1])
             there.append(np.broadcast_to(row & (not whole), X[1:-1].shape))
             cells.append(np.broadcast_to(row[:-1], (len(X) - 1, len(self.rows) - 1)))
-        return (np.concatenate(x), np.concatenate(y), np.concatenate(there),
-                np.concatenate(cells))  # fmt: skip
+        return (np.concatenate(x), np.concatenate(y), np.concatenate(there), np.concatenate(cells))
 
     def _lamella(self, k: int) -> tuple[FloatArray, FloatArray]:
         """Columns of lamella k, from wall to wall, (columns, rows)."""
@@ -318,8 +324,10 @@ def shape_of_blocks(
         start = number * (length + groove)
         own = sorted(sipes, key=lambda sipe: sipe.at)
         slots += [replace(sipe, at=sipe.at + start) for sipe in own]
-        edges += [(chamfers[0] if i == 0 else 0.0, chamfers[1] if i == len(own) else 0.0)
-                  for i in range(len(own) + 1)]  # fmt: skip
+        edges += [
+            (chamfers[0] if i == 0 else 0.0, chamfers[1] if i == len(own) else 0.0)
+            for i in range(len(own) + 1)
+        ]
         if number + 1 < blocks:
             middle = start + length + 0.5 * groove
             breaks.append(middle)
