@@ -320,6 +320,26 @@ def test_a_block_slid_forth_and_back_gives_a_symmetric_loop():
     assert ends[4] == pytest.approx(ends[2], rel=0.01)
     assert ends[5] == pytest.approx(ends[3], rel=0.01)
     assert history["sliding_distance_mm"].iloc[-1] == pytest.approx(16.0)
+    # The loop of the last way there and back encloses the friction work.
+    loop = history.iloc[np.flatnonzero(history["phase"] == 4)[0] - 1 :]
+    steps = np.sign(loop["velocity_mm_per_s"]) * loop["sliding_distance_mm"].diff()
+    area = np.trapezoid(loop["friction_force_N_per_mm"], steps.fillna(0.0).cumsum())
+    friction = loop["friction_dissipation_mJ_per_mm"]
+    assert area == pytest.approx(friction.iloc[-1] - friction.iloc[0], rel=0.01)
+
+
+def test_an_event_to_the_left_is_the_mirror_image():
+    def run(sense):
+        phases = (PRESS, slide(sense * 300.0, distance_mm=1.0), LIFT)
+        return simulate(event(*phases, loading={"repeat": 2}))
+
+    right, left = run(1.0), run(-1.0)
+    for column in ("time_s", "friction_force_N_per_mm", "T_max_C", "contact_length_mm"):
+        np.testing.assert_allclose(
+            left.history[column], right.history[column], rtol=1e-8, atol=1e-8
+        )
+    names = ["friction_coefficient", "T_max_C", "friction_work_mJ_per_mm"]
+    np.testing.assert_allclose(left.contacts[names], right.contacts[names], rtol=1e-8)
 
 
 def test_a_block_that_is_held_sticks():
