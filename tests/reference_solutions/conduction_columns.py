@@ -127,7 +127,8 @@ def sliding_columns(
 class Contacts:
     """Block columns over road columns in one contact after another; see `sliding_columns`.
 
-    `pause` is the longest time in air [s].
+    `pause` is the longest time in air [s]. Several blocks stand `groove` mm apart on one track; the
+    stations of the leading one come first.
     """
 
     def __init__(
@@ -148,6 +149,8 @@ class Contacts:
         ratio=1.12,
         pause=0.0,
         count=1,
+        blocks=1,
+        groove=0.0,
     ):
         self.velocity, self.length, self.stations, self.T_0_C = velocity, length, stations, T_0_C
         self.load = kappa * pressure * velocity
@@ -160,8 +163,10 @@ class Contacts:
         self.cells = [graded_cells(first_cell, ratio, depth) for depth in reach]
         self.columns = self._columns(self.dt)
         # The road columns of the whole track, the first ones below the rear of the block at first.
-        self.T_b = np.zeros((len(self.cells[0]), stations))
-        self.T_r = np.zeros((len(self.cells[1]), stations + self.steps))
+        behind = round((length + groove) / length * stations) * np.arange(blocks)
+        self.behind = (behind[:, None] + np.arange(stations)).ravel()
+        self.T_b = np.zeros((len(self.cells[0]), self.behind.size))
+        self.T_r = np.zeros((len(self.cells[1]), self.behind[-1] + 1 + self.steps))
 
     def _columns(self, dt):
         return [
@@ -174,7 +179,7 @@ class Contacts:
         surface = self.T_b[0].copy()
         for step in range(self.steps):
             # The block moves one station on; station 0 is the leading one.
-            below = np.arange(self.stations + step, step, -1)
+            below = self.behind[-1] + 1 + step - self.behind
             heat = self.load * self.friction(self.T_0_C + surface)
             self.T_b, self.T_r = rubber.step(self.T_b), asphalt.step(self.T_r)
             block_rise = rubber.response[0] + rubber.half_cell
@@ -185,7 +190,7 @@ class Contacts:
             surface = self.T_b[0] + block_rise * (heat - q)
             self.T_b += rubber.response[:, None] * (heat - q)
             self.T_r[:, below] += asphalt.response[:, None] * q
-        s = (np.arange(self.stations) + 0.5) * self.length / self.stations
+        s = (self.behind + 0.5) * self.length / self.stations
         return ColumnsResult(s_mm=s, T_C=self.T_0_C + surface)
 
     def in_air(self, duration, *, fresh, steps=400):
