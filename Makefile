@@ -25,7 +25,7 @@ help:
 	@echo "make claims     the paper's statements against the simulation, one by one"
 	@echo "make sensitivity  what the paper leaves open, one parameter at a time"
 	@echo "make report     all of that in one HTML page, $(RESULTS)/report.html"
-	@echo "make robustness  108 cases from easy to extreme, elastic and viscoelastic; rewrites their tables and docs/verification.md"
+	@echo "make robustness  108 cases from easy to extreme, elastic and viscoelastic, and 48 blocks; rewrites their tables and docs/verification.md"
 	@echo "make convergence  to the limit of damping and steps; rewrites its tables and docs/verification.md"
 	@echo "make braking    ten contacts of an ABS event with its pictures, into $(RESULTS)/abs_braking"
 	@echo "make blocks     plain, chamfered and siped blocks and two in a row side by side, into $(RESULTS)/blocks"
@@ -101,6 +101,8 @@ robustness: $(READY)
 	$(BIN)/treadfem sweep validation/studies/robustness.toml --base validation/studies/viscoelastic_block.toml \
 	  -o $(RESULTS)/robustness_viscoelastic --resume --accept-unusual || test $$? = 3
 	$(BIN)/python -m validation.convergence.robustness $(RESULTS)/robustness_viscoelastic/summary.csv viscoelastic
+	$(BIN)/treadfem sweep validation/studies/block_robustness.toml -o $(RESULTS)/block_robustness --resume || test $$? = 3
+	$(BIN)/python -m validation.convergence.robustness $(RESULTS)/block_robustness/summary.csv blocks
 	$(BIN)/python -m validation.convergence.write
 
 # A case that does not converge (exit code 3) is a row of the tables too.

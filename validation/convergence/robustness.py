@@ -2,7 +2,8 @@
 
 ``python -m validation.convergence.robustness SUMMARY.csv [VARIANT]`` takes from the summary of its
 sweep the columns that tell how each case went, four digits each, and writes
-``validation/robustness.csv`` or that of a variant: the same grid from another base case.
+``validation/robustness.csv`` or that of a variant: the same grid from another base case, or the
+study of chamfered and siped blocks and of two in a row.
 """
 
 import sys
@@ -15,13 +16,25 @@ from fem.files import write_table
 TABLE = Path(__file__).parents[1] / "robustness.csv"
 #: Rubber that damps its snaps itself, on the coarse mesh (`studies/viscoelastic_block.toml`).
 VISCOELASTIC = "viscoelastic"
-TABLES = {"": TABLE, VISCOELASTIC: TABLE.with_name("robustness_viscoelastic.csv")}
+#: Chamfers, sipes, two blocks in a row (`studies/block_robustness.toml`).
+BLOCKS = "blocks"
+TABLES = {
+    "": TABLE,
+    VISCOELASTIC: TABLE.with_name("robustness_viscoelastic.csv"),
+    BLOCKS: TABLE.with_name("block_robustness.csv"),
+}
 #: What was varied, under shorter names.
 VARIED = {
     "rubber.compound": "compound",
     "loading.mean_pressure_N_per_mm2": "mean_pressure_N_per_mm2",
     "friction.law": "law",
     "friction.mu": "mu",
+}
+#: The same of blocks' outlines; of sipes it is their number.
+OUTLINES = {
+    "block.blocks": "blocks",
+    "block.chamfer_leading_mm": "chamfer_leading_mm",
+    "block.sipes": "sipes",
 }
 #: How it went. Each share and error is explained in `docs/files.md`.
 FOUND = (
@@ -48,8 +61,14 @@ FOUND = (
 
 
 def robustness_table(summary: pd.DataFrame) -> pd.DataFrame:
-    """The columns of the committed table, of a sweep's summary."""
-    table = summary.rename(columns=VARIED)[[*VARIED.values(), *FOUND]].copy()
+    """The columns of the committed table, of a sweep's summary; of blocks their outlines, too."""
+    blocks = OUTLINES.keys() <= set(summary)
+    varied = OUTLINES | VARIED if blocks else VARIED
+    columns = [*varied.values(), *FOUND, *(["advice"] if blocks else [])]
+    table = summary.rename(columns=varied)[columns].copy()
+    if blocks:
+        # The summary has the text of the list.
+        table["sipes"] = table["sipes"].astype(str).str.count("position_mm")
     for column in table.select_dtypes("float"):
         table[column] = [float(f"{value:.4g}") for value in table[column]]
     return table

@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from fem import simulate
-from validation.convergence.robustness import FOUND, TABLE, VARIED, robustness_table
+from validation.convergence.robustness import FOUND, OUTLINES, TABLE, VARIED, robustness_table
 from validation.studies import cases_of
 
 COARSE = {"block.mesh": "coarse"}
@@ -88,3 +88,33 @@ def test_the_table_is_the_summary_of_a_sweep_in_four_digits():
     assert row["min_J"] == 0.3333
     assert row["mu"] == 0.1235
     assert "elements" not in row
+
+
+# -- blocks as they are ----------------------------------------------------------------------------
+
+
+def test_the_study_of_blocks_has_every_shape_with_every_law_and_pressure():
+    cases = cases_of("block_robustness")
+    assert len(cases) == 48
+    shapes = {
+        (c.case.block.blocks, c.case.block.chamfer_leading_mm, len(c.case.block.sipes))
+        for c in cases
+    }
+    assert shapes == {(1, 0.0, 0), (1, 1.0, 0), (1, 0.0, 1), (1, 0.0, 2), (1, 0.0, 3), (2, 0.0, 0)}
+    assert {(c.case.friction.law, c.case.friction.mu) for c in cases} == {
+        ("huemer", None),
+        ("coulomb", 0.6),
+        ("coulomb", 0.9),
+    }
+    assert len({c.case.rubber.compound for c in cases}) == 3
+    assert {c.case.loading.mean_pressure_N_per_mm2 for c in cases} == {0.25, 0.4}
+    assert {c.case.block.mesh for c in cases} == {"default"}
+
+
+def test_sipes_are_counted_in_the_table_of_blocks():
+    varied = dict.fromkeys([*OUTLINES, *VARIED, "advice"], 1.0)
+    sipes = [[], [{"position_mm": 5.0}], [{"position_mm": 5.0}, {"position_mm": 9.0}]]
+    summary = pd.DataFrame(
+        [{**varied, **dict.fromkeys(FOUND, 1.0), "block.sipes": str(row)} for row in sipes]
+    )
+    assert robustness_table(summary)["sipes"].tolist() == [0, 1, 2]
