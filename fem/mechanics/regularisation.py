@@ -3,16 +3,14 @@
 Under high friction the leading edge rolls under in snaps: at a limit point no equilibrium is near,
 and the edge jumps to the next one. A step without a solution is solved again with a Kelvin-Voigt
 stress ``S = eta (E - E_n)/dt`` that carries the jump; its strength, the *level*, rises with each
-failure and fades with each accepted step until nothing of it is left (`fem.stepping.step_control`).
-Steps that have a solution see none of it, so that the onset of sliding is the elastic one; those of
-the onset that have none are relaxed afterwards (`fem.stepping.relaxation`).
+failure (`fem.stepping.step_control`). The step is then relaxed until nothing of it is left
+(`fem.stepping.relaxation`). Steps that have a solution see none of it.
 
 The relaxation time is stated as a sliding distance, so that the damping acts alike at all
-velocities; most of it sits at the leading corners, where the surface folds. Too much of it holds an
-edge back while the block slides on, which leads to another of its equilibria; too little lets steps
-become small. The default weighs both (`make convergence` goes to a hundredth of it). What it
-dissipates is audited: `snap_share` in the steps that had no solution without,
-`regularisation_share` in those through which it fades.
+velocities; most of it sits at the leading corners, where the surface folds. With too little of it
+steps become small (`make convergence` goes to a hundredth of it). What it dissipates is audited:
+`snap_share` in the steps that had no solution without, `regularisation_share` in others, which begin
+with what relaxation had to leave.
 
 Viscoelastic rubber that loses enough at the rate of the snaps carries them itself: it gets none but
 where no step length has a solution (the sudden lift of a block that slides may have none).

@@ -108,10 +108,6 @@ class Phase(Protocol):
     def growth(self) -> float:
         """Factor of steps after an easy one."""
 
-    @property
-    def onset(self) -> bool:
-        """Whether sliding begins in it, so that its first damped steps are relaxed."""
-
     def longest(self, at: float) -> float:
         """Longest step from a coordinate on."""
 
@@ -149,7 +145,6 @@ class Steps:
     touches_down: bool = False
     convection: float = 0.0
 
-    onset = False
     growth = 1.5
     on_road = True
 
@@ -222,7 +217,6 @@ class Slide(Steps):
     start: float = 0.0
     acceleration_distance: float = 0.0
     onset_share: float = inf
-    onset: bool = False
 
     name = "sliding"
     unit = " mm"

@@ -144,7 +144,6 @@ class _Builder:
             "step_initial": solver.step_mm_initial * scale,
             "step_max": solver.step_mm_max * scale,
             "step_min": solver.step_mm_min,
-            "onset": True,
             "onset_share": ONSET_SHARE * scale,
         }
 

@@ -1,10 +1,10 @@
-"""Relaxation of a damped step at the onset of sliding, until as little damping as can be is left.
+"""Relaxation of a damped step, until as little damping as can be is left.
 
 A snap that damping carries takes as long as the damping: at the leading edge, millimetres of
-sliding. Late in a slide that is little; in the first millimetres the force would be that of the
-damping. There the damped step is solved again and again, each time with a quarter of the damping
-and from its last solution, from which the strains of the damping count too: a continuation in
-pseudo-time to the equilibrium that the snap leads to, within the same step. Where a quarter has no
+sliding, in which forces are those of the damping. So a damped step is solved again and again, each
+time with a quarter of the damping and from its last solution, from which the strains of the damping
+count too: a continuation in pseudo-time to the equilibrium that the snap leads to, within the same
+step. Where a quarter has no
 solution, the same damping once more takes the block on its way, and leaves the rest to the next
 step. What the snap releases on the way is in none of the forces at the end of the step; the audit
 takes it from the balance of the step (`snap_share`).
@@ -22,9 +22,6 @@ from dataclasses import replace
 from fem.stepping.coupled_state import AcceptedStep
 from fem.stepping.coupled_step import CoupledModel
 
-#: Distance slid up to which damped steps are relaxed [mm]. A block of 8 mm slides in full after
-#: 2.8 mm.
-RELAXED_ONSET = 3.0
 #: Factor of the damping from one solution to the next; with a half it takes a third more of them.
 EASING = 0.25
 #: Level below which the next solution is without damping.

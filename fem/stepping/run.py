@@ -29,7 +29,7 @@ from fem.stepping.observers import (
 from fem.stepping.phases import Phase
 from fem.stepping.point import Records, RunPoint, RunRecord, columns
 from fem.stepping.programme import programme
-from fem.stepping.relaxation import RELAXED_ONSET, relaxed
+from fem.stepping.relaxation import relaxed
 from fem.stepping.step_control import StepController, StepPlan
 
 #: Shortest step where the rubber itself damps the snaps, over the shortest one elsewhere: there
@@ -227,13 +227,12 @@ class Run:
 
     def _attempt(
         self, phase: Phase, plan: StepPlan, stop: float
-    ) -> tuple[AcceptedStep | RejectedStep, float | None]:
-        """A planned step, relaxed at the onset, and the level of damping that this left."""
+    ) -> tuple[AcceptedStep | RejectedStep, float]:
+        """A planned step, relaxed if it was damped, and the level of damping that this left."""
         attempt = self.model.advance(self.state, phase.target(plan.at, stop), plan.help)
-        onset = phase.onset and plan.at < RELAXED_ONSET
-        if onset and plan.help > 0.0 and isinstance(attempt, AcceptedStep):
+        if plan.help > 0.0 and isinstance(attempt, AcceptedStep):
             return relaxed(self.model, attempt, plan.help)
-        return attempt, None
+        return attempt, 0.0
 
     def _accept(self, moment: Moment) -> None:
         self.state = moment.step.after

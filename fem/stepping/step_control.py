@@ -52,9 +52,6 @@ class StepController:
     first_help, more_help, enough_help, most_help : float
         Level after a first failure, its factor after another, from where on steps are cut too, and
         the largest one.
-    fading, no_help : float
-        Factor of the level after an accepted step, and below which level there is none. Where it
-        fades faster, or over a distance, the next snaps fail again: twice the iterations.
     """
 
     step_max: float
@@ -70,8 +67,6 @@ class StepController:
     more_help: float = 2.0
     enough_help: float = 4.0
     most_help: float = 64.0
-    fading: float = 0.85
-    no_help: float = 0.01
 
     def trial(self, plan: StepPlan, longest: float, end: float) -> tuple[float, float]:
         """Length and end of the next step; the last one lands on the end exactly."""
@@ -83,23 +78,18 @@ class StepController:
         plan: StepPlan,
         length: float,
         iterations: int,
-        help_left: float | None = None,
+        help_left: float = 0.0,
         *,
         at: float = 0.0,
     ) -> StepPlan:
-        """Plan from `at` on, after an accepted step of this length.
-
-        Help fades unless it is said what is left.
-        """
+        """Plan from `at` on, after an accepted step of this length; the help left goes on."""
         step, bound = length, plan.bound * self.recovery
-        level = plan.help * self.fading if help_left is None else help_left
         if iterations <= self.easy:
             step *= self.growth
         elif iterations > self.hard:
             step *= self.shrink
         step = min(max(min(step, bound), self.step_min), self.step_max)
-        level = level if level >= self.no_help else 0.0
-        return StepPlan(step=step, bound=bound, help=level, at=at)
+        return StepPlan(step=step, bound=bound, help=help_left, at=at)
 
     def rejected(self, plan: StepPlan, length: float) -> StepPlan:
         """Plan after a failed step of this length: more help, or more and a shorter step."""

@@ -54,21 +54,10 @@ def test_help_has_an_end_and_cuts_have_none():
     assert CONTROL.rejected(plan, 1.0).step == CONTROL.cut
 
 
-def test_help_fades_to_nothing():
-    plan, levels = StepPlan(step=0.1, help=4.0), []
-    for _ in range(40):
-        plan = CONTROL.accepted(plan, 0.1, 3)
-        levels.append(plan.help)
-    assert levels == sorted(levels, reverse=True)
-    assert levels[0] == 4.0 * CONTROL.fading
-    assert levels[-1] == 0.0
-    assert min(level for level in levels if level) >= CONTROL.no_help
-
-
-def test_help_that_a_step_was_relaxed_to_does_not_fade():
+def test_the_next_step_gets_the_help_that_is_left():
     plan = StepPlan(step=0.1, help=4.0)
     assert CONTROL.accepted(plan, 0.1, 3, 0.5).help == 0.5
-    assert CONTROL.accepted(plan, 0.1, 3, 0.0).help == 0.0
+    assert CONTROL.accepted(plan, 0.1, 3).help == 0.0
 
 
 def test_a_step_that_needed_none_gets_no_help():
