@@ -26,6 +26,10 @@ from fem.stepping.coupled_step import CoupledModel
 EASING = 0.25
 #: Level below which the next solution is without damping.
 LAST_LEVEL = 0.01
+#: Share of the work of a step that its damping may dissipate without being relaxed [-].
+NEGLIGIBLE = 1e-4
+#: Factor of the level from one step to the next where its damping is negligible.
+FADING = 0.85
 
 
 def relaxed(model: CoupledModel, step: AcceptedStep, level: float) -> tuple[AcceptedStep, float]:
@@ -47,21 +51,27 @@ def relaxed(model: CoupledModel, step: AcceptedStep, level: float) -> tuple[Acce
     level : float
         Level of its damping, 0 for none.
     """
-    iterations, eases = step.iterations, True
-    while level > 0.0:
-        other = _eased(level) if eases else level
+    iterations, eases, again = step.iterations, True, False
+    while level > 0.0 and not _negligible(step):
+        other = _lowered(level, EASING) if eases else level
         attempt = model.advance(step.before, step.target, other, guess=step)
-        iterations += attempt.iterations
+        iterations, again = iterations + attempt.iterations, True
         if isinstance(attempt, AcceptedStep):
             step, level = attempt, other
         elif eases:
             eases = False
             continue
         if not eases:
-            break
-    return replace(step, iterations=iterations, relaxed=True), level
+            return replace(step, iterations=iterations, relaxed=again), level
+    return replace(step, iterations=iterations, relaxed=again), _lowered(level, FADING)
 
 
-def _eased(level: float) -> float:
-    """Next lower level of damping."""
-    return EASING * level if EASING * level >= LAST_LEVEL else 0.0
+def _negligible(step: AcceptedStep) -> bool:
+    """Whether the damping dissipates next to nothing of the work of a step."""
+    work = step.after.contact.friction_force * step.target.sweep
+    return step.energies.viscous <= NEGLIGIBLE * abs(work)
+
+
+def _lowered(level: float, factor: float) -> float:
+    """Level of damping times a factor, 0 for none."""
+    return factor * level if factor * level >= LAST_LEVEL else 0.0
