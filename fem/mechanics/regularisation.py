@@ -9,8 +9,7 @@ failure (`fem.stepping.step_control`). The step is then relaxed until nothing of
 The relaxation time is stated as a sliding distance, so that the damping acts alike at all
 velocities; most of it sits at the leading corners, where the surface folds. With too little of it
 steps become small (`make convergence` goes to a hundredth of it). What it dissipates is audited:
-`snap_share` in the steps that had no solution without, `regularisation_share` in others, which begin
-with what relaxation had to leave.
+`snap_share` in the steps that had no solution without, `regularisation_share` in others.
 
 Viscoelastic rubber that loses enough at the rate of the snaps carries them itself: it gets none but
 where no step length has a solution (the sudden lift of a block that slides may have none).
