@@ -192,11 +192,14 @@ def first_difference(found: Any, expected: Any) -> tuple[str, str, str] | None:
 
 
 def _flat(tables: Any, prefix: str = "") -> dict[str, Any]:
-    """Nested tables as one with dotted keys."""
+    """Nested tables and lists as one table with dotted keys, places in a list from 0 on."""
+    if isinstance(tables, list | tuple):
+        tables = {str(place): value for place, value in enumerate(tables)}
+    if not isinstance(tables, dict):
+        return {prefix: tables}
     flat: dict[str, Any] = {}
-    for key, value in (tables if isinstance(tables, dict) else {}).items():
-        name = f"{prefix}{key}"
-        flat |= _flat(value, f"{name}.") if isinstance(value, dict) else {name: value}
+    for key, value in tables.items():
+        flat |= _flat(value, f"{prefix}.{key}" if prefix else key)
     return flat
 
 

@@ -5,8 +5,8 @@ sliding, in which forces are those of the damping. So a damped step is solved ag
 time with a quarter of the damping and from its last solution, from which the strains of the damping
 count too: a continuation in pseudo-time to the equilibrium that the snap leads to, within the same
 step. Where a quarter has no solution, the same damping once more takes the block on its way, and
-leaves the rest to the next step. What the snap releases on the way is in none of the forces at the end of the step; the audit
-takes it from the balance of the step (`snap_share`).
+leaves the rest to the next step. What the snap releases on the way is in none of the forces at the
+end of the step; the audit takes it from the balance of the step (`snap_share`).
 
 References
 ----------
