@@ -50,7 +50,9 @@ def test_where_an_undamped_solution_exists_relaxation_ends_next_to_it(sliding):
     assert step.energies.viscous <= NEGLIGIBLE * forces[2] * target.sweep
     assert abs(forces[0] - forces[1]) > 0.05 * forces[1]
     assert forces[2] == pytest.approx(forces[1], rel=10.0 * NEGLIGIBLE)
-    np.testing.assert_allclose(step.after.mechanics.u, elastic.after.mechanics.u, atol=1e-2 * target.sweep)
+    np.testing.assert_allclose(
+        step.after.mechanics.u, elastic.after.mechanics.u, atol=1e-2 * target.sweep
+    )
 
 
 def test_damping_that_dissipates_next_to_nothing_fades_without_another_solution(sliding):
