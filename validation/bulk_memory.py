@@ -10,13 +10,12 @@ of the bulk over the event). The branches and the softening are made up.
 import argparse
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from fem.files import write_table
 from fem.results import Result, contacts_table
-from validation.analysis import shape
+from validation.analysis import force_at, shape
 from validation.drawing import PAGE_WIDTH, new_figure, save, styled
 
 SLIDES = Path(__file__).parent / "memory_slides.csv"
@@ -51,12 +50,6 @@ def rubber_of(result: Result) -> str:
     if rubber.viscoelastic is not None:
         return BRANCHES
     return ELASTIC if rubber.mullins is None else SOFTENING
-
-
-def force_at(history: pd.DataFrame, motion: float) -> float:
-    """Friction force when the block has slid so far [N/mm]."""
-    slide = history[history["sliding_distance_mm"] > 0.0]
-    return float(np.interp(motion, slide["sliding_distance_mm"], slide["friction_force_N_per_mm"]))
 
 
 def bulk_share(history: pd.DataFrame) -> float:

@@ -7,7 +7,8 @@ import pytest
 
 from fem import Case, simulate
 from validation import bulk_memory
-from validation.bulk_memory import bulk_share, force_at, main, rubber_of
+from validation.analysis import force_at, onset_difference
+from validation.bulk_memory import bulk_share, main, rubber_of
 
 SPEC = {"cells_x": 12, "cells_y": 5, "smallest_x_mm": 1.0, "smallest_y_mm": 1.0}
 RUBBERS = {
@@ -52,6 +53,9 @@ def test_forces_and_shares_are_read_off_a_history():
     )
     assert force_at(history, 2.0) == pytest.approx(1.5)
     assert bulk_share(history) == 0.25
+    twice = history.assign(friction_force_N_per_mm=2.0 * history["friction_force_N_per_mm"])
+    assert onset_difference(history, twice, 3.0) == pytest.approx(0.5)
+    assert onset_difference(history, history, 3.0) == 0.0
 
 
 def test_two_studies_give_two_tables_and_two_pictures(tmp_path, monkeypatch, capsys):

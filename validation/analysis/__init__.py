@@ -1,6 +1,7 @@
 """What the tables and fields of finished runs tell: pure functions that claims, figures and
 sensitivity share."""
 
+from validation.analysis.forces import force_at, onset_difference
 from validation.analysis.page_blocks import markdown_table, with_block
 from validation.analysis.paper_numbers import (
     ACCEPTED_K,

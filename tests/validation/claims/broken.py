@@ -41,6 +41,13 @@ def _introductory(change: Callable[[Result], Result]) -> Change:
     return apply
 
 
+def _remembering(change: Callable[[Result], Result]) -> Change:
+    def apply(evidence: MadeUpEvidence) -> None:
+        evidence.remembering = change(evidence.remembering)
+
+    return apply
+
+
 def _compound(name: str, change: Callable[[Result], Result]) -> Change:
     def apply(evidence: MadeUpEvidence) -> None:
         evidence.compounds[name] = change(evidence.compounds[name])
@@ -156,6 +163,16 @@ def _turned_round(point: Any, law: str, run: Result) -> Result:
 
 
 BROKEN: dict[str, Change] = {
+    # 2.1
+    "bulk_may_be_elastic": _remembering(
+        lambda r: replace(
+            r,
+            history=r.history.assign(
+                friction_force_N_per_mm=1.5 * r.history["friction_force_N_per_mm"]
+            ),
+        )
+    ),
+    "damage_may_be_left_out": _remembering(lambda r: with_summary(r, T_max_C=0.0)),
     # 4.2
     "mean_contact_pressure": _introductory(
         lambda r: with_summary(r, mean_contact_pressure_N_per_mm2=0.36)
