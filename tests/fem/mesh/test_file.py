@@ -1,5 +1,7 @@
 """Meshes from files: the formats, scattered numbers, mirrored motion, the same results."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,8 +9,10 @@ from fem import Case, simulate
 from fem.mesh.block import block_mesh
 from fem.mesh.file import read_mesh
 from fem.mesh.grading import Grading
+from fem.stepping import mesh_of
 from tests.mesh_files import WRITERS, grid, scattered, write_gmsh
 
+EXAMPLES = Path(__file__).parents[3] / "examples"
 SPEC = {"cells_x": 24, "cells_y": 10, "smallest_x_mm": 0.3, "smallest_y_mm": 0.15}
 
 
@@ -82,3 +86,18 @@ def test_the_place_of_a_file_does_not_matter_but_its_content(folder, tmp_path):
     first, copy = case_of(folder, file="block.msh"), case_of(tmp_path, file="copy.msh")
     assert first.hash() == copy.hash()
     assert first.hash() != case_of(tmp_path, file="other.msh").hash()
+
+
+def test_the_example_is_the_outline_of_its_script_and_runs():
+    """`tapered_block.geo`: 20 mm at the road, flanks that lean by 8 degrees, rounded edges."""
+    case = Case.from_toml(EXAMPLES / "tapered_block.toml", {"loading.distance_mm": 0.05})
+    mesh = mesh_of(case)
+    lean = 8.0 * np.tan(np.radians(8.0))
+    # Read, its first point along the road is at 0.
+    assert mesh.points.min(axis=0) == pytest.approx([0.0, 0.0])
+    assert mesh.points.max(axis=0) == pytest.approx([20.0 + 2.0 * lean, 8.0])
+    assert np.ptp(mesh.points[mesh.top, 0]) == pytest.approx(20.0 + 2.0 * lean)
+    on_road = mesh.points[mesh.points[:, 1] == 0.0, 0] - lean
+    rounding = 0.5 * np.tan(np.radians(0.5 * (90.0 - 8.0)))
+    assert [on_road.min(), on_road.max()] == pytest.approx([rounding, 20.0 - rounding])
+    assert simulate(case).summary["status"] == "ok"
