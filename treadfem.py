@@ -437,7 +437,7 @@ def _export(arguments: argparse.Namespace) -> int:
     check_output_file(path)
     if not path.parent.is_dir():
         found = f"no folder {path.parent}"
-        raise CaseError(file=str(path), key="-o", found=found, expected="a file in a folder")
+        raise CaseError(str(path), "-o", found, "a file in a folder")
     write_deck(case, path)
     if remark := friction_remark(case):
         print(f"treadfem: {remark}", file=sys.stderr)

@@ -58,8 +58,7 @@ def plot_hyperelastic(result: FitResult, data: StressData) -> Figure:
     above.set_title(f"{name}: RMSE {result.rmse:.3g} N/mm², R² {result.r2:.4f}", fontsize=10)
     above.set_ylabel("nominal stress [N/mm²]")
     above.legend(fontsize=8)
-    below.set_xlabel("stretch [-]")
-    below.set_ylabel("fit - data [N/mm²]")
+    below.set(xlabel="stretch [-]", ylabel="fit - data [N/mm²]")
     return figure
 
 
@@ -78,12 +77,10 @@ def plot_histories(result: FitResult, data: Histories) -> Figure:
         below.plot(points.table.rows[few], residual, color=colour, linewidth=0.8)
     name = f"{result.metadata['kind']}, {result.metadata['model']}"
     above.set_title(f"{name}: RMSE {result.rmse:.3g} N/mm², R² {result.r2:.4f}", fontsize=10)
-    above.set_xlabel("stretch [-]")
-    above.set_ylabel("nominal stress [N/mm²]")
+    above.set(xlabel="stretch [-]", ylabel="nominal stress [N/mm²]")
     above.legend(fontsize=8)
     below.axhline(0.0, color="0.5", linewidth=0.8)
-    below.set_xlabel("row")
-    below.set_ylabel("fit - data [N/mm²]")
+    below.set(xlabel="row", ylabel="fit - data [N/mm²]")
     return figure
 
 
@@ -101,13 +98,11 @@ def plot_moduli(result: FitResult, data: Moduli) -> Figure:
         below.plot(frequency, 100.0 * (fitted / observed - 1.0), **dots)
     for tau in result.model.tau_s:
         above.axvline(1.0 / (2.0 * np.pi * tau), color="0.8", linewidth=0.8, zorder=0)
-    above.set_xscale("log")
-    above.set_yscale("log")
+    above.set(xscale="log", yscale="log")
     above.set_title(f"{len(result.model.tau_s)} branches at {data.T_ref_C:g} °C", fontsize=10)
     above.set_ylabel("modulus [N/mm²]")
     above.legend(fontsize=8)
-    below.set_xlabel(f"reduced frequency at {data.T_ref_C:g} °C [Hz]")
-    below.set_ylabel("fit/data - 1 [%]")
+    below.set(xlabel=f"reduced frequency at {data.T_ref_C:g} °C [Hz]", ylabel="fit/data - 1 [%]")
     return figure
 
 
@@ -175,8 +170,7 @@ def plot_wlf(result: FitResult, temperatures: FloatArray) -> Figure:
     below.plot(T, (result.predicted - result.observed)[shown], **dots)
     above.set_ylabel(r"$\log_{10} a_T$ [-]")
     above.legend(fontsize=8)
-    below.set_xlabel("temperature [°C]")
-    below.set_ylabel("fit - data [-]")
+    below.set(xlabel="temperature [°C]", ylabel="fit - data [-]")
     return figure
 
 
@@ -196,9 +190,7 @@ def plot_master_curve(master: MasterCurve) -> Figure:
             ordered = sweep.sort_values("reduced_frequency_Hz")
             x, y = ordered["reduced_frequency_Hz"], ordered[name]
             axes.plot(x, y, color=colour, label=label, **marks)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel(f"reduced frequency at {master.T_ref_C:g} °C [Hz]")
+    axes.set(xscale="log", yscale="log", xlabel=f"reduced frequency at {master.T_ref_C:g} °C [Hz]")
     axes.set_ylabel(", ".join(f"{_CURVES[name][1]} ({_CURVES[name][0]})" for name in shown))
     axes.set_title(f"overlap error {master.overlap_error:.2g} decades", fontsize=10)
     axes.legend(fontsize=7, ncols=2)
@@ -222,8 +214,7 @@ def plot_conductance(result: FitResult, record: HeatingRecord) -> Figure:
     above.set_title(f"h = {h:.4g} ± {error:.2g} W/(m² K) at {pressure:g} N/mm²", fontsize=10)
     above.set_ylabel("temperature [°C]")
     above.legend(fontsize=8, ncols=2)
-    below.set_xlabel("time [min]")
-    below.set_ylabel("fit - data [K]")
+    below.set(xlabel="time [min]", ylabel="fit - data [K]")
     return figure
 
 
@@ -243,8 +234,7 @@ def plot_partition(result: FitResult, discrete: pd.DataFrame) -> Figure:
     above.set_title(f"heat partition: RMSE {result.rmse:.3g} K", fontsize=10)
     above.set_ylabel("heat partition κ [-]")
     above.legend(fontsize=8)
-    below.set_xlabel("mean contact pressure [N/mm²]")
-    below.set_ylabel("fit - data [K]")
+    below.set(xlabel="mean contact pressure [N/mm²]", ylabel="fit - data [K]")
     return figure
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import random
 import signal
 import subprocess
@@ -15,7 +14,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-ROOT = Path(__file__).parents[1]
+from tests.machines import ENVIRONMENT, TIMES
+
 CASE = """
 [block]
 mesh = {cells_x = 24, cells_y = 8, smallest_x_mm = 0.4, smallest_y_mm = 0.3}
@@ -29,14 +29,6 @@ distance_mm = 30.0
 figures = false
 checkpoint_s = 0.0
 """
-ENVIRONMENT = {
-    **os.environ,
-    "PYTHONPATH": str(ROOT),
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-}
-#: What depends on the machine's mood.
-TIMES = ["wall_s", "solver_s"]
 KILLED = -signal.SIGKILL
 
 # Kills itself instead of the given rename, the first being number 1.

@@ -122,8 +122,7 @@ def draw_event(results: list[Result]) -> Figure:
         above.plot(history["time_s"], history["T_max_C"], label=label)
         below.plot(history["time_s"], history[BULK], label=label)
     above.set_ylabel("T_max [°C]")
-    below.set_ylabel("heat of the bulk\n[mJ/mm]")
-    below.set_xlabel("time [s]")
+    below.set(ylabel="heat of the bulk\n[mJ/mm]", xlabel="time [s]")
     above.legend(fontsize="small")
     return figure
 

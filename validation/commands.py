@@ -86,10 +86,10 @@ def _figure(arguments: argparse.Namespace) -> int:
             return BAD_INPUT
         if not set(numbers) & set(MEASURABLE):
             raise CaseError(
-                file="figure",
-                key="--measured",
-                found=f"figure {arguments.number}",
-                expected="a figure that shows measurements: 11, 12 or all",
+                "figure",
+                "--measured",
+                f"figure {arguments.number}",
+                "a figure that shows measurements: 11, 12 or all",
             )
     for number in numbers:
         make = partial(make_figure, number, arguments.output, measured)
@@ -117,7 +117,7 @@ def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list
         return sorted(known)
     if arguments.number not in map(str, known):
         expected = f"one of {', '.join(map(str, sorted(known)))} or all"
-        raise CaseError(file=what, key="N", found=repr(arguments.number), expected=expected)
+        raise CaseError(what, "N", repr(arguments.number), expected)
     return [int(arguments.number)]
 
 
@@ -183,12 +183,7 @@ def _report(arguments: argparse.Namespace) -> int:
     figures = Path(arguments.figures)
     path = chosen_output(arguments.output, Path("results/report.html"))
     if not figures.is_dir():
-        raise CaseError(
-            file=str(figures),
-            key="--figures",
-            found="no such folder",
-            expected="what make figures made",
-        )
+        raise CaseError(str(figures), "--figures", "no such folder", "what make figures made")
     check_output_file(path)
     print(write_report(figures, path))
     return DONE

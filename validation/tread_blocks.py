@@ -121,8 +121,7 @@ def draw_curves(results: dict[str, Result]) -> Figure:
             label=name,
         )
         _draw_pressure(axes, result.boundary, name, colour)
-    force.set_xlabel("platen motion [mm]")
-    force.set_ylabel("force per block\n[N/mm]")
+    force.set(xlabel="platen motion [mm]", ylabel="force per block\n[N/mm]")
     force.legend(ncols=2, fontsize="small")
     pressures[-1].set_xlabel("place in the platen's frame [mm]")
     return figure
@@ -134,8 +133,7 @@ def _draw_pressure(axes: Axes, boundary: pd.DataFrame, name: str, colour: str) -
     for _, chain in on.groupby(["block", "chain"], sort=False):
         axes.plot(chain["x_mm"], chain["pressure_N_per_mm2"], ".-", color=colour, ms=2.0, lw=0.8)
     axes.set_title(name, loc="left", fontsize="small")
-    axes.set_ylabel("p [N/mm²]")
-    axes.set_yscale("log")
+    axes.set(ylabel="p [N/mm²]", yscale="log")
     axes.set_ylim(0.02, 20.0)
 
 

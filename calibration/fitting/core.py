@@ -16,7 +16,6 @@ from scipy import optimize, stats
 
 from calibration.data import DataError
 from calibration.fitting.minimum import minimise
-from calibration.fitting.parameter_file import write_parameter_file
 from calibration.fitting.problem import Loss, Problem
 from calibration.fitting.uncertainty import correlation_of, uncertainty
 from materials.arrays import FloatArray
@@ -154,6 +153,8 @@ class FitResult:
 
     def to_toml(self, path: str | Path) -> Path:
         """Write the parameter file that a case file refers to (``parameters = "..."``)."""
+        from calibration.fitting.parameter_file import write_parameter_file
+
         return write_parameter_file(self, path)
 
     @property

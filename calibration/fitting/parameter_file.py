@@ -8,49 +8,18 @@ are.
 
 import json
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
+from calibration.fitting.core import FitResult
 from calibration.fitting.stability import Stability
 from fem.files import write_text
-from materials.arrays import FloatArray
 
 
-class Fit(Protocol):
-    """What a parameter file tells of a fit (see `calibration.fitting.core.FitResult`)."""
-
-    @property
-    def section(self) -> Mapping[str, Any]: ...
-    @property
-    def metadata(self) -> Mapping[str, Any]: ...
-    @property
-    def names(self) -> tuple[str, ...]: ...
-    @property
-    def values(self) -> Mapping[str, float]: ...
-    @property
-    def stderr(self) -> Mapping[str, float]: ...
-    @property
-    def covariance(self) -> FloatArray: ...
-    @property
-    def fixed(self) -> Collection[str]: ...
-    @property
-    def n_data(self) -> int: ...
-    @property
-    def rmse(self) -> float: ...
-    @property
-    def r2(self) -> float: ...
-    @property
-    def aic(self) -> float: ...
-    @property
-    def message(self) -> str: ...
-    @property
-    def warnings(self) -> Collection[str]: ...
-
-
-def write_parameter_file(result: Fit, path: str | Path) -> Path:
+def write_parameter_file(result: FitResult, path: str | Path) -> Path:
     """Write the parameters of a fit with their origin; the file appears whole or not at all."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -58,7 +27,7 @@ def write_parameter_file(result: Fit, path: str | Path) -> Path:
     return path
 
 
-def parameter_text(result: Fit) -> str:
+def parameter_text(result: FitResult) -> str:
     """Text of the parameter file of a fit."""
     lines = []
     for name, content in result.section.items():
@@ -75,7 +44,7 @@ def parameter_text(result: Fit) -> str:
     return "\n".join(lines)
 
 
-def _provenance(result: Fit) -> dict[str, Any]:
+def _provenance(result: FitResult) -> dict[str, Any]:
     known = dict(result.metadata)
     stability = known.pop("stability", None)
     if isinstance(stability, Stability):

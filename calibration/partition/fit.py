@@ -147,22 +147,20 @@ def _check_case(case: Case) -> None:
     refuse_event(case)
     if case.heat.partition.cap < SMALLEST:
         raise CaseError(
-            file=case.source,
-            key="heat.partition.cap",
-            found=f"{case.heat.partition.cap:g}",
-            expected=f"at least {SMALLEST:g}, a share of the friction power to identify",
+            case.source,
+            "heat.partition.cap",
+            f"{case.heat.partition.cap:g}",
+            f"at least {SMALLEST:g}, a share of the friction power to identify",
         )
     if not isinstance(case.heat.partition.pressure, str):
         raise CaseError(
-            file=case.source,
-            key="heat.partition.pressure",
-            found=f"{case.heat.partition.pressure:g}",
-            expected='"mean" or "local": with one fixed pressure the law has no exponent to fit',
+            case.source,
+            "heat.partition.pressure",
+            f"{case.heat.partition.pressure:g}",
+            '"mean" or "local": with one fixed pressure the law has no exponent to fit',
         )
     if case.friction.law == "coulomb" and case.friction.constants.get("mu") == 0.0:
-        raise CaseError(
-            file=case.source, key="friction.mu", found="0", expected="friction, which makes heat"
-        )
+        raise CaseError(case.source, "friction.mu", "0", "friction, which makes heat")
 
 
 # -- discrete estimates ------------------------------------------------------------------------

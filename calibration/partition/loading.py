@@ -54,4 +54,4 @@ def loading_keys(case: Case, pressure: float, velocity: float) -> dict[str, Any]
 
 
 def _refuse(case: Case, key: str, found: str, expected: str) -> NoReturn:
-    raise CaseError(file=case.source, key=key, found=found, expected=expected)
+    raise CaseError(case.source, key, found, expected)

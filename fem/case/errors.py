@@ -24,7 +24,7 @@ class CaseError(ValueError):
         What the file says and what it should say.
     """
 
-    def __init__(self, *, file: str, key: str, found: str, expected: str) -> None:
+    def __init__(self, file: str, key: str, found: str, expected: str) -> None:
         self.file, self.key, self.found, self.expected = (
             _one_line(text) for text in (str(file), key, found, expected)
         )

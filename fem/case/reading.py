@@ -73,7 +73,7 @@ def read_toml(path: Path, *, named_by: tuple[str, str] | None = None) -> Table:
 
 
 def _raise(file: str, key: str, found: str, expected: str) -> NoReturn:
-    raise CaseError(file=file, key=key, found=found, expected=expected) from None
+    raise CaseError(file, key, found, expected) from None
 
 
 def expanded(name: str, file: str, key: str) -> Path:

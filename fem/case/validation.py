@@ -49,10 +49,10 @@ def _walk(
         here = (*location, key)
         if key not in fields:
             raise CaseError(
-                file=source.file_of(here),
-                key=".".join(here),
-                found="an unknown key" if location else "an unknown section",
-                expected=_advice(key, fields, location, root),
+                source.file_of(here),
+                ".".join(here),
+                "an unknown key" if location else "an unknown section",
+                _advice(key, fields, location, root),
             )
         inner = _table_model(fields[key].annotation)
         if inner is None:
@@ -113,12 +113,7 @@ def case_error(error: ValidationError, source: Source) -> CaseError:
         expected = one_of(re.findall(r"<(\w+)>", context["expected_tags"]))
     else:
         found, expected = _found(fault), _expected(fault, context)
-    return CaseError(
-        file=source.file_of(location),
-        key=".".join(location) or "case",
-        found=found,
-        expected=expected,
-    )
+    return CaseError(source.file_of(location), ".".join(location) or "case", found, expected)
 
 
 def _telling(faults: list[ErrorDetails]) -> ErrorDetails:

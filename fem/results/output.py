@@ -76,7 +76,7 @@ def chosen_output(wanted: str | None, default: Path) -> Path:
         If it has no name.
     """
     if wanted is not None and not wanted.strip():
-        raise CaseError(file="-o", key="name", found="nothing", expected="a file or folder")
+        raise CaseError("-o", "name", "nothing", "a file or folder")
     return default if wanted is None else Path(wanted)
 
 
@@ -201,4 +201,4 @@ def _unlock(folder: Path, lock: int) -> None:
 
 
 def _refused(directory: str | Path, found: str, expected: str = "a writable folder") -> CaseError:
-    return CaseError(file=str(directory), key="-o", found=found, expected=expected)
+    return CaseError(str(directory), "-o", found, expected)

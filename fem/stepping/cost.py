@@ -123,7 +123,7 @@ def refuse_unaffordable(case: Case) -> Cost:
         expected = f"a run that fits into the {memory:.1f} GB of this machine"
     else:
         return cost
-    raise CaseError(file=case.source, key=key, found=str(cost), expected=expected)
+    raise CaseError(case.source, key, str(cost), expected)
 
 
 def _slowest(case: Case, cost: Cost) -> str:

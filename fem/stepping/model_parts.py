@@ -48,12 +48,10 @@ def mesh_of(case: Case) -> BlockMesh:
         mesh = tread_mesh(_shape(block), _grading(block), block.length_mm, direction)
     except ValueError as error:
         found, _, expected = str(error).partition("; expected ")
-        raise CaseError(
-            file=case.source, key="block.sipes", found=found, expected=expected
-        ) from None
+        raise CaseError(case.source, "block.sipes", found, expected) from None
     if len(mesh.cells) > LARGEST_MESH:
         found, expected = f"{len(mesh.cells)} elements", f"at most {LARGEST_MESH}"
-        raise CaseError(file=case.source, key="block.mesh", found=found, expected=expected)
+        raise CaseError(case.source, "block.mesh", found, expected)
     return mesh
 
 
@@ -64,13 +62,11 @@ def _mesh_of_file(case: Case, direction: int) -> BlockMesh:
         mesh = read_mesh(block.file, direction)
     except MeshFileError as error:
         found = f"{Path(block.file).name}: {error.found}"
-        raise CaseError(
-            file=case.source, key="block.file", found=found, expected=error.expected
-        ) from None
+        raise CaseError(case.source, "block.file", found, error.expected) from None
     for key, size in (("length_mm", mesh.top_length), ("height_mm", mesh.height)):
         if key in block.model_fields_set and not np.isclose(getattr(block, key), size, rtol=1e-6):
             found, expected = str(getattr(block, key)), f"{size:.9g}, that of the file, or nothing"
-            raise CaseError(file=case.source, key=f"block.{key}", found=found, expected=expected)
+            raise CaseError(case.source, f"block.{key}", found, expected)
     return mesh
 
 

@@ -71,9 +71,7 @@ def read_run(folder: Path) -> Result:
         raise
     except ValueError as error:
         expected = "what the run wrote (without summary.json it is run again)"
-        raise CaseError(
-            file=str(folder), key="result", found=str(error), expected=expected
-        ) from None
+        raise CaseError(str(folder), "result", str(error), expected) from None
 
 
 def simulate_missing(

@@ -233,4 +233,4 @@ def _marked(name: str, content: str) -> str:
 
 
 def _refuse(path: Path, key: str, found: str, expected: str) -> NoReturn:
-    raise CaseError(file=str(path), key=key, found=found, expected=expected)
+    raise CaseError(str(path), key, found, expected)

@@ -101,7 +101,7 @@ def sweep(
         size = size_of_study(read, workers)
         if confirm is None or not confirm(size):
             expected = f"at most {MANY_CASES} cases, or --yes"
-            raise CaseError(file=str(study), key="grid", found=size, expected=expected)
+            raise CaseError(str(study), "grid", size, expected)
     cases = read.cases()
     for case in cases:
         refuse_unaffordable(case.case)

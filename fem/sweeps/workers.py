@@ -56,13 +56,13 @@ def number_of_workers(wanted: int | None, scheduler: str | None) -> int:
     if scheduler is not None and not isinstance(scheduler, str):
         raise TypeError(f"scheduler is {scheduler!r}, expected an address or None")
     if wanted is not None and wanted < 1:
-        raise CaseError(file="sweep", key="--workers", found=str(wanted), expected="at least 1")
+        raise CaseError("sweep", "--workers", str(wanted), "at least 1")
     if scheduler is not None and not has_dask():
         raise CaseError(
-            file="sweep",
-            key="--scheduler",
-            found="no package dask.distributed",
-            expected=f"it installed ({INSTALL}), or local workers",
+            "sweep",
+            "--scheduler",
+            "no package dask.distributed",
+            f"it installed ({INSTALL}), or local workers",
         )
     return wanted or cores()
 
@@ -167,10 +167,10 @@ def _client(scheduler: str) -> Iterator[Any]:
     except (OSError, ValueError, TypeError) as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise CaseError(
-            file="sweep",
-            key="--scheduler",
-            found=f"{scheduler}: {reason}",
-            expected="the address of a running dask scheduler, e.g. tcp://10.0.0.1:8786",
+            "sweep",
+            "--scheduler",
+            f"{scheduler}: {reason}",
+            "the address of a running dask scheduler, e.g. tcp://10.0.0.1:8786",
         ) from None
     try:
         if not client.scheduler_info()["workers"]:

@@ -29,10 +29,10 @@ def hyperelastic_card(case: Case) -> list[str]:
     for key in ("viscoelastic", "mullins"):
         if getattr(case.rubber, key) is not None:
             raise CaseError(
-                file=case.source,
-                key=f"rubber.{key}",
-                found="rubber that remembers",
-                expected="an elastic rubber: the deck has no such material",
+                case.source,
+                f"rubber.{key}",
+                "rubber that remembers",
+                "an elastic rubber: the deck has no such material",
             )
     if isinstance(model, NeoHooke):
         return ["*HYPERELASTIC, NEO HOOKE", numbers(0.5 * model.G, D1)]
@@ -52,10 +52,10 @@ def hyperelastic_card(case: Case) -> list[str]:
 def _no_such_material(case: Case, model: Hyperelastic) -> CaseError:
     key = "rubber.compound" if case.rubber.compound is not None else "rubber.model"
     return CaseError(
-        file=case.source,
-        key=key,
-        found=f'"{case.rubber.compound or case.rubber.model_name}" ({type(model).__name__})',
-        expected="a Yeoh, Mooney-Rivlin, neo-Hookean or Ogden rubber: no other energy here is "
+        case.source,
+        key,
+        f'"{case.rubber.compound or case.rubber.model_name}" ({type(model).__name__})',
+        "a Yeoh, Mooney-Rivlin, neo-Hookean or Ogden rubber: no other energy here is "
         "the same in CalculiX",
     )
 

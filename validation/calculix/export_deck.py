@@ -82,13 +82,10 @@ def input_deck(case: Case, options: DeckOptions | None = None) -> str:
     if case.loading.phase:
         found = f"an event of {len(case.loading.phase)} phases"
         expected = "one slide (mean_pressure_N_per_mm2, velocity_mm_per_s, distance_mm)"
-        raise CaseError(file=case.source, key="loading.phase", found=found, expected=expected)
+        raise CaseError(case.source, "loading.phase", found, expected)
     if case.block.rigid:
         raise CaseError(
-            file=case.source,
-            key="block.rigid",
-            found="true",
-            expected="false: a rigid block has nothing to export",
+            case.source, "block.rigid", "true", "false: a rigid block has nothing to export"
         )
     case = sized(case)
     mesh = mesh_of(case)

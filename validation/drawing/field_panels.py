@@ -156,8 +156,7 @@ def draw_panel(
         axes.spines[side].set_visible(True)
     if detail is not None:
         mark_window(axes, detail)
-    axes.set_title(title)
-    axes.set_ylabel("$y$ [mm]")
+    axes.set(title=title, ylabel="$y$ [mm]")
     axes.locator_params(nbins=6)
     return field
 

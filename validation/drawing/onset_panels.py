@@ -66,8 +66,7 @@ def _draw_force(axes: Axes, history: pd.DataFrame, steps: IndexArray) -> None:
         for name in ("sliding_distance_mm", "friction_force_N_per_mm")
     )
     axes.plot(motion, force, color=BLUE, marker="o", markersize=2.5)
-    axes.set_ylabel("friction force [N/mm]")
-    axes.set_title("Friction force (a dot per accepted step)")
+    axes.set(ylabel="friction force [N/mm]", title="Friction force (a dot per accepted step)")
     axes.set_ylim(bottom=0.0)
     axes.grid(axis="y")
 
@@ -82,8 +81,7 @@ def _draw_status(axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: I
         vmin=-0.5,
         vmax=2.5,
     )
-    axes.set_ylabel("$X$ [mm]")
-    axes.set_title("Status along the bottom (0: trailing corner)")
+    axes.set(ylabel="$X$ [mm]", title="Status along the bottom (0: trailing corner)")
     handles = [
         Patch(facecolor=colour, edgecolor=GREY, lw=0.5, label=name)
         for name, colour in STATUS_COLOURS.items()
@@ -104,6 +102,5 @@ def _draw_pressure(
     mesh = axes.pcolormesh(
         motion, _edges_of_nodes(bottom.X_mm), shown.T, cmap=STRESS_MAP, vmin=0.0, vmax=largest
     )
-    axes.set_ylabel("$X$ [mm]")
-    axes.set_title("Contact pressure (white: open)")
+    axes.set(ylabel="$X$ [mm]", title="Contact pressure (white: open)")
     return mesh

@@ -109,10 +109,7 @@ def simulated_runs(directory: str | Path, *, pyrometer: bool = False) -> pd.Data
             rows.append({"case": folder.name, "folder": folder} | _of_run(case, summary))
     if not rows:
         raise CaseError(
-            file=str(directory),
-            key="RESULTS_DIR",
-            found="no finished run",
-            expected="the folder of a sweep or of a run",
+            str(directory), "RESULTS_DIR", "no finished run", "the folder of a sweep or of a run"
         )
     return pd.DataFrame(rows).assign(variant=_variants(cases), pyrometer=pyrometer)
 
@@ -122,9 +119,7 @@ def _as_read(folder: Path, summary: dict[str, Any]) -> dict[str, Any]:
     if not all(name in summary for name in _READ.values()):
         found = "a run without a pyrometer's reading"
         expected = "[pyrometer] in its case (or no --pyrometer)"
-        raise CaseError(
-            file=str(folder / SUMMARY_JSON), key=_READ["T_max_C"], found=found, expected=expected
-        )
+        raise CaseError(str(folder / SUMMARY_JSON), _READ["T_max_C"], found, expected)
     return summary | {name: summary[read] for name, read in _READ.items()}
 
 
@@ -143,9 +138,7 @@ def _run_folders(directory: Path) -> list[Path]:
         except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
             found = f"a damaged table ({error})"
             expected = "what a sweep wrote (or no such file)"
-            raise CaseError(
-                file=str(table), key="content", found=found, expected=expected
-            ) from None
+            raise CaseError(str(table), "content", found, expected) from None
     return sorted(path for path in runs.iterdir() if (path / SUMMARY_JSON).is_file())
 
 
@@ -153,7 +146,7 @@ def _plain_name(table: Path, name: str) -> str:
     """Name of a run's folder, which must not lead anywhere else."""
     if name in ("", ".", "..") or Path(name).name != name:
         expected = "the name of a folder in runs"
-        raise CaseError(file=str(table), key="case", found=describe(name), expected=expected)
+        raise CaseError(str(table), "case", describe(name), expected)
     return name
 
 

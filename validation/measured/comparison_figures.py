@@ -71,8 +71,7 @@ def _draw_agreement(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
     axes.set_xlim(*ends)
     axes.set_ylim(*ends)
     axes.set_aspect("equal")
-    axes.set_xlabel(f"measured {_LABELS[quantity]}")
-    axes.set_ylabel(f"simulated {_LABELS[quantity]}")
+    axes.set(xlabel=f"measured {_LABELS[quantity]}", ylabel=f"simulated {_LABELS[quantity]}")
     axes.locator_params(nbins=5)
     axes.grid(True)
 
@@ -96,8 +95,7 @@ def draw_profiles(measurements: Measurements, runs: pd.DataFrame) -> Figure:
         for run in found.to_dict("records"):
             _draw_simulated(axes, run, variants.index(run["variant"]))
         draw_measured_profile(axes, profile)
-        axes.set_title(profile.run)
-        axes.set_xlabel("$X$ [mm]")
+        axes.set(title=profile.run, xlabel="$X$ [mm]")
         axes.set_ylabel("$T$ [°C]" if axes in panels[:, 0] else "")
         axes.grid(True)
         legend |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))

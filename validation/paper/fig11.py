@@ -48,8 +48,7 @@ def draw(runs: list[StudyRun], measured: Measurements | None = None) -> Figure:
         for profile in measured_profiles(measured, velocity):
             draw_measured_profile(axes, profile)
         stopped = {reached(run.result) for run in runs if run[VELOCITY] == velocity}
-        axes.set_title(f"$v$ = {velocity:g} mm/s{max(stopped)}")
-        axes.set_xlabel("$X$ [mm]")
+        axes.set(title=f"$v$ = {velocity:g} mm/s{max(stopped)}", xlabel="$X$ [mm]")
         axes.set_ylabel("$T$ at the bottom surface [°C]" if axes is panels[0] else "")
         axes.set_xlim(0.0, float(surface["X_mm"].max()))
         axes.grid(True)

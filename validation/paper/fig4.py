@@ -70,10 +70,8 @@ def _draw_map(axes: Axes, table: pd.DataFrame, name: str) -> ScalarMappable:
     field = axes.contourf(v, p, values, LEVELS, cmap=STRESS_MAP, extend="both")
     lines = axes.contour(v, p, values, LEVELS[::2], colors=BLACK, linewidths=0.6)
     axes.clabel(lines, fmt="%.1f", fontsize=7)
-    axes.set_xscale("log")
-    axes.set_xlabel("sliding velocity $v$ [mm/s]")
-    axes.set_ylabel("contact pressure $p$ [N/mm²]")
-    axes.set_title(TITLES[name])
+    axes.set(xscale="log", xlabel="sliding velocity $v$ [mm/s]")
+    axes.set(ylabel="contact pressure $p$ [N/mm²]", title=TITLES[name])
     return field
 
 
@@ -91,8 +89,7 @@ def _draw_over_velocity(axes: Axes) -> None:
     axes.set_xscale("log")
     axes.set_xlim(v[0], v[-1])
     axes.set_ylim(0.6, 1.05)
-    axes.set_xlabel("sliding velocity $v$ [mm/s]")
-    axes.set_ylabel(r"$\mu$ [-]")
+    axes.set(xlabel="sliding velocity $v$ [mm/s]", ylabel=r"$\mu$ [-]")
     axes.legend(loc="lower right", title="full: (6), dashed: (5)")
     axes.set_title("(c) Over the velocity")
     axes.grid(True)
@@ -105,8 +102,7 @@ def _draw_over_pressure(axes: Axes) -> None:
             label = f"$v$ = {v:g} mm/s" if name == "huemer" else None
             axes.plot(p, LAWS[name].coefficient(p, v), color=colour, ls=dash, label=label)
     axes.set_xlim(0.0, p[-1])
-    axes.set_xlabel("contact pressure $p$ [N/mm²]")
-    axes.set_ylabel(r"$\mu$ [-]")
+    axes.set(xlabel="contact pressure $p$ [N/mm²]", ylabel=r"$\mu$ [-]")
     axes.legend(loc="upper right", title="full: (6), dashed: (5)")
     axes.set_title("(d) Over the pressure")
     axes.grid(True)

@@ -115,8 +115,7 @@ def _draw_section(axes: Axes, rig: HeatingRig, looks: dict[str, tuple[str, str]]
     depth = 1.4 * max(-place.y_mm for place in rig.thermocouples.values())
     axes.set_xlim(-1.35 * L, 1.65 * L)
     axes.set_ylim(-depth, top + 0.4 * rig.copper_height_mm)
-    axes.set_xlabel("$x$ [mm]")
-    axes.set_ylabel("height above the contact [mm]")
+    axes.set(xlabel="$x$ [mm]", ylabel="height above the contact [mm]")
     axes.set_title(f"Rig, $p$ = {rig.pressure_N_per_mm2:g} N/mm²")
 
 
@@ -135,8 +134,7 @@ def _draw_curves(
             color=colour,
             label=name,
         )
-    axes.set_xlabel("time [min]")
-    axes.set_ylabel("temperature [°C]")
+    axes.set(xlabel="time [min]", ylabel="temperature [°C]")
     axes.set_xlim(0.0, float(minutes.max()))
     axes.legend(loc="upper right", ncols=2)
     axes.grid(True)

@@ -163,7 +163,6 @@ def _draw_detail(axes: Axes, mesh: BlockMesh, window: Window) -> None:
         axes.spines[side].set_visible(True)
     axes.yaxis.tick_right()
     axes.yaxis.set_label_position("right")
-    axes.set_xlabel("$X$ [mm]")
-    axes.set_ylabel("$Y$ [mm]")
+    axes.set(xlabel="$X$ [mm]", ylabel="$Y$ [mm]")
     smallest = mesh.size.min()
     axes.set_title(f"Leading edge, {len(mesh.cells)} elements,\nsmallest edge {smallest:.2g} mm")

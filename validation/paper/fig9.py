@@ -141,8 +141,7 @@ def _draw_contours(axes: Axes, states: dict[str, BlockState], window: Window) ->
     ]
     labels = [COMPOUND_LOOKS[n].label for n in states]
     axes.legend(handles, labels, loc="center", bbox_to_anchor=(0.45, 0.5), fontsize=6.5)
-    axes.set_xlabel("$x$ in the platen's frame [mm]")
-    axes.set_ylabel("$y$ [mm]")
+    axes.set(xlabel="$x$ in the platen's frame [mm]", ylabel="$y$ [mm]")
     axes.set_title("Deformed contours (dotted: undeformed)")
 
 

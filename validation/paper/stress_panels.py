@@ -113,6 +113,5 @@ def _finish(axes: Axes, strain: tuple[float, float], stress: tuple[float, float]
     axes.set_ylim(*stress)
     axes.axhline(0.0, color=GREY, lw=0.5)
     axes.axvline(0.0, color=GREY, lw=0.5)
-    axes.set_xlabel("nominal strain [%]")
-    axes.set_ylabel("nominal stress [N/mm²]")
+    axes.set(xlabel="nominal strain [%]", ylabel="nominal stress [N/mm²]")
     axes.grid(True)

@@ -65,7 +65,7 @@ def read_cells(path: Path) -> CellTable:
             lines = [line for line in csv.reader(file) if line]
     except (UnicodeDecodeError, csv.Error) as error:
         found, expected = f"no table in UTF-8 ({error})", "what the program wrote (make it again)"
-        raise CaseError(file=str(path), key="content", found=found, expected=expected) from None
+        raise CaseError(str(path), "content", found, expected) from None
     columns = tuple(lines[0]) if lines else ()
     width = len(columns)
     rows = tuple(

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem.case.case import Case
-from fem.mesh.block import BlockMesh
-from fem.results.surface_profile import EDGE_ZONE
+from fem.case import Case
+from fem.mesh import BlockMesh
+from fem.results import EDGE_ZONE
 from fem.stepping.moment import Moment
 from fem.stepping.wear import Wear, worn
 from materials.arrays import BoolArray
