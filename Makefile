@@ -11,7 +11,7 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence braking blocks memory clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence braking slip blocks memory clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
@@ -28,6 +28,7 @@ help:
 	@echo "make robustness  108 cases from easy to extreme, elastic and viscoelastic, and 48 blocks; rewrites their tables and docs/verification.md"
 	@echo "make convergence  to the limit of damping and steps; rewrites its tables and docs/verification.md"
 	@echo "make braking    ten contacts of an ABS event with its pictures, into $(RESULTS)/abs_braking"
+	@echo "make slip       braking at 5, 10, 20 % slip and with a locked wheel, into $(RESULTS)/slip"
 	@echo "make blocks     plain, chamfered and siped blocks and two in a row side by side, into $(RESULTS)/blocks"
 	@echo "make memory     slides and an ABS event with rubber that remembers; rewrites validation/memory_*.csv"
 	@echo "make clean      remove results and caches (make distclean: .venv too)"
@@ -113,6 +114,10 @@ convergence: $(READY)
 
 braking: $(READY)
 	$(BIN)/treadfem run examples/abs_braking.toml -o $(RESULTS)/abs_braking --resume
+
+slip: $(READY)
+	$(BIN)/treadfem sweep validation/studies/braking.toml -o $(RESULTS)/slip --resume
+	$(BIN)/python -m validation.braking $(RESULTS)/slip
 
 blocks: $(READY)
 	$(BIN)/treadfem sweep validation/studies/blocks.toml -o $(RESULTS)/blocks --resume
