@@ -265,11 +265,22 @@ def robustness_text(table: pd.DataFrame) -> str:
         f"snaps takes less than {100 * DAMPED:g} % of the work in {(~few).sum()} of them"
     )
     if not few.any():
-        return f"{text}."
+        return f"{text}.{_failures(table)}"
     return (
         f"{text}, up to {100 * damped.max():.1f} % in the others, whose leading edge still rolls "
         f"under in snaps at the end: {_at_most(ok, few, 'mu')} of them have the highest "
         f"coefficient, {_at_most(ok, few, 'mean_pressure_N_per_mm2')} the highest pressure."
+        f"{_failures(table)}"
+    )
+
+
+def _failures(table: pd.DataFrame) -> str:
+    """The cases that did not end, each with its reason."""
+    failed = table[table["status"] != "ok"]
+    return "".join(
+        f" Not {row['compound']} with {row['law']}{'' if pd.isna(row['mu']) else ' %g' % row['mu']} "
+        f"at {row['mean_pressure_N_per_mm2']:g} N/mm²: {row['reason']}."
+        for row in failed.to_dict("records")
     )
 
 

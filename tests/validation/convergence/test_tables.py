@@ -81,6 +81,9 @@ def test_every_check_of_the_page_is_a_test():
 
 def test_robustness_counts_what_ends_and_what_is_damped():
     table = pd.DataFrame({
+        "compound": ["one", "two", "three"],
+        "law": ["huemer", "coulomb", "coulomb"],
+        "reason": [None, None, "it folds"],
         "status": ["ok", "ok", "not converged"],
         "mu": [None, 1.2, 0.3],
         "mean_pressure_N_per_mm2": [0.1, 0.5, 0.5],
@@ -95,6 +98,7 @@ def test_robustness_counts_what_ends_and_what_is_damped():
     assert "at most 0.90 % of an element" in text
     assert "in 1 of them, up to 3.4 % in the others" in text
     assert "1 of them have the highest coefficient, 1 the highest pressure" in text
+    assert text.endswith("Not three with coulomb 0.3 at 0.5 N/mm²: it folds.")
     assert robustness_text(table[:1]).endswith("less than 1 % of the work in 1 of them.")
 
 
