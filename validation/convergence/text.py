@@ -277,10 +277,12 @@ def robustness_text(table: pd.DataFrame) -> str:
 def _failures(table: pd.DataFrame) -> str:
     """The cases that did not end, each with its reason."""
     failed = table[table["status"] != "ok"]
+    with_mu = failed["law"] + failed["mu"].map(lambda mu: "" if pd.isna(mu) else f" {mu:g}")
+    rows = failed.assign(friction=with_mu).to_dict("records")
     return "".join(
-        f" Not {row['compound']} with {row['law']}{'' if pd.isna(row['mu']) else ' %g' % row['mu']} "
-        f"at {row['mean_pressure_N_per_mm2']:g} N/mm²: {row['reason']}."
-        for row in failed.to_dict("records")
+        f" Not {row['compound']} with {row['friction']} at {row['mean_pressure_N_per_mm2']:g} "
+        f"N/mm²: {row['reason']}."
+        for row in rows
     )
 
 
