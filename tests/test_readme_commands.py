@@ -144,6 +144,7 @@ def is_covered_elsewhere(line: str) -> bool:
 #: What cuts an example short, by what it is.
 SHORTER = {
     "case": " --set loading.distance_mm=1 --set block.mesh=coarse",
+    "mesh": " --set loading.distance_mm=1",
     "event": " --set loading.repeat=1 --set loading.phase.1.time_s=5e-4 --set block.mesh=coarse",
 }
 
@@ -151,7 +152,7 @@ SHORTER = {
 def example_lines() -> list[str]:
     """Commands of examples/README.md for every example, cut short, on the README's sweep."""
     commands = [" ".join(line.split()) for line in re.findall(r"`(treadfem [^`]*)`", EXAMPLES)]
-    kinds = re.findall(r"^\| `(\w+)\.toml` \| (case|event):", EXAMPLES, flags=re.MULTILINE)
+    kinds = re.findall(r"^\| `(\w+)\.toml` \| (case|event|mesh):", EXAMPLES, flags=re.MULTILINE)
     return [
         line.replace("RESULTS_DIR", "results/my_study")
         for command in commands
