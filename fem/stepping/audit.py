@@ -1,7 +1,9 @@
 """Energy audit of a run: work done against what was stored, dissipated and set in motion.
 
 Forces are integrated over the steps by the trapezoidal rule, so that the audit's own error is of
-second order; what backward Euler dissipates numerically (in snaps) shows up as an error.
+second order; what backward Euler dissipates numerically shows up as an error. The end of a relaxed
+step holds nothing of what its snap released (`fem.stepping.relaxation`): there the balance gives
+it, so that an error of such a step shows as a large `snap_share` instead.
 """
 
 from dataclasses import dataclass
