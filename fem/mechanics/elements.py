@@ -25,6 +25,7 @@ from functools import cached_property
 import numpy as np
 from skfem import Basis, ElementQuad1, ElementVector
 
+from fem.mechanics.corners import CornerBarrier, CornerForces
 from fem.mesh import BlockMesh
 from fem.solvers import summed
 from materials.arrays import FloatArray, IntArray
@@ -54,6 +55,8 @@ class Kinematics:
         Ratio of deformed to reference area [-].
     area_gradient : (ne, 4, 2) float array
         Gradient of the deformed area with respect to the corners [mm].
+    x : (ne, 4, 2) float array
+        Coordinates of the corners [mm].
     """
 
     F11: FloatArray
@@ -62,6 +65,7 @@ class Kinematics:
     F22: FloatArray
     Jbar: FloatArray
     area_gradient: FloatArray
+    x: FloatArray
 
     @cached_property
     def J(self) -> FloatArray:
@@ -154,6 +158,8 @@ class ElementForces:
         Second Piola-Kirchhoff stresses besides those of the invariants [N/mm^2].
     past : Past
         What the step began from.
+    corners : CornerForces or None
+        Of the elements of which a corner resists, in `residual`.
     """
 
     residual: FloatArray
@@ -163,6 +169,7 @@ class ElementForces:
     S: InPlane | None
     pressure: FloatArray
     past: Past
+    corners: CornerForces | None
 
 
 #: No viscosity, and the virgin material.
@@ -195,6 +202,7 @@ class Q1P0Elements:
         self.volume = self.weights.sum(axis=1)
         self.cells = mesh.cells
         self._X = mesh.points[mesh.cells]
+        self.corners = CornerBarrier(self._X, self.volume, model.initial_shear_modulus)
 
     @cached_property
     def dofs(self) -> IntArray:
@@ -206,8 +214,9 @@ class Q1P0Elements:
         u_e = u[self.cells]
         H = np.matmul(u_e.transpose(0, 2, 1), self._G_flat)  # (ne, i, (q, I))
         H = H.reshape(-1, 2, 4, 2)
-        b = area_gradient(self._X + u_e)
-        area = 0.5 * np.einsum("eai,eai->e", b, self._X + u_e)
+        x = self._X + u_e
+        b = area_gradient(x)
+        area = 0.5 * np.einsum("eai,eai->e", b, x)
         return Kinematics(
             F11=1.0 + H[:, 0, :, 0],
             F12=H[:, 0, :, 1].copy(),
@@ -215,6 +224,7 @@ class Q1P0Elements:
             F22=1.0 + H[:, 1, :, 1],
             Jbar=area / self.volume,
             area_gradient=b,
+            x=x,
         )
 
     def largest_gradient(self, u: FloatArray) -> float:
@@ -252,14 +262,19 @@ class Q1P0Elements:
         residual = np.matmul(self._G_flat, P_flat).reshape(-1, 8)
         b = kin.area_gradient.reshape(-1, 8)
         dU_dJ = self.K_bulk * (kin.Jbar - 1.0)
+        residual += dU_dJ[:, None] * b
+        corners = self.corners.forces(kin.x)
+        if corners is not None:
+            residual[corners.cells] += corners.residual
         return ElementForces(
-            residual=residual + dU_dJ[:, None] * b,
+            residual=residual,
             pressure_residual=dU_dJ - p,
             kinematics=kin,
             response=response,
             S=S,
             pressure=p,
             past=past,
+            corners=corners,
         )
 
     def tangent(self, forces: ElementForces) -> FloatArray:
@@ -287,6 +302,8 @@ class Q1P0Elements:
             b = kin.area_gradient.transpose(0, 2, 1)
             c = b * (self.K_bulk / self.volume[cells])[:, None, None]
             K[cells] += c[:, :, None, :, None] * b[:, None, :, None, :]
+        if forces.corners is not None:
+            K[forces.corners.cells] += self.corners.tangent(forces.corners)
         return K
 
     def _stiffness(
@@ -311,7 +328,8 @@ class Q1P0Elements:
     def strain_energy(self, kin: Kinematics, stored: FloatArray) -> float:
         """Stored energy per depth [mJ/mm] with that of the material (ne, 4) [N/mm^2]."""
         volumetric = 0.5 * self.K_bulk * (kin.Jbar - 1.0) ** 2
-        return self.integral(stored) + float(np.sum(self.volume * volumetric))
+        bulk = float(np.sum(self.volume * volumetric))
+        return self.integral(stored) + bulk + self.corners.energy(kin.x)
 
     def integral(self, density: FloatArray | None) -> float:
         """Integral over the block of a density (ne, 4) per reference volume; 0 of None."""

@@ -5,8 +5,9 @@ sliding, in which forces are those of the damping. So a damped step is solved ag
 time with a quarter of the damping and from its last solution, from which the strains of the damping
 count too: a continuation in pseudo-time to the equilibrium that the snap leads to, within the same
 step. Where a quarter has no solution, the same damping once more takes the block on its way, and
-leaves the rest to the next step. What the snap releases on the way is in none of the forces at the
-end of the step; the audit takes it from the balance of the step (`snap_share`).
+leaves the rest to the next steps; the first few of these do not try a quarter again. What the snap
+releases on the way is in none of the forces at the end of the step; the audit takes it from the
+balance of the step (`snap_share`).
 
 References
 ----------
@@ -17,6 +18,7 @@ References
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 from fem.stepping.coupled_state import AcceptedStep
 from fem.stepping.coupled_step import CoupledModel
@@ -29,9 +31,20 @@ LAST_LEVEL = 0.01
 NEGLIGIBLE = 1e-4
 #: Factor of the level from one step to the next where its damping is negligible.
 FADING = 0.85
+#: Steps that keep the damping after one that found no solution with less.
+REST = 4
 
 
-def relaxed(model: CoupledModel, step: AcceptedStep, level: float) -> tuple[AcceptedStep, float]:
+class Damping(NamedTuple):
+    """Level of the damping of a step, and how many steps are still to keep it."""
+
+    level: float = 0.0
+    rest: int = 0
+
+
+def relaxed(
+    model: CoupledModel, step: AcceptedStep, damping: Damping
+) -> tuple[AcceptedStep, Damping]:
     """A step that was solved with damping, with the least of it that still has a solution.
 
     Parameters
@@ -40,17 +53,18 @@ def relaxed(model: CoupledModel, step: AcceptedStep, level: float) -> tuple[Acce
         The model that solved it.
     step : AcceptedStep
         The damped step.
-    level : float
-        Level of its damping [-].
+    damping : Damping
+        Its damping.
 
     Returns
     -------
     step : AcceptedStep
         The same step with less damping; its iterations are those of all solutions, found or not.
-    level : float
-        Level of its damping, 0 for none.
+    damping : Damping
+        That of the next step.
     """
-    iterations, eases, again = step.iterations, True, False
+    level, rest = damping.level, max(damping.rest - 1, 0)
+    iterations, eases, again = step.iterations, damping.rest == 0, False
     while level > 0.0 and not _negligible(step):
         other = _lowered(level, EASING) if eases else level
         attempt = model.advance(step.before, step.target, other, guess=step)
@@ -58,11 +72,12 @@ def relaxed(model: CoupledModel, step: AcceptedStep, level: float) -> tuple[Acce
         if isinstance(attempt, AcceptedStep):
             step, level = attempt, other
         elif eases:
-            eases = False
+            eases, rest = False, REST
             continue
         if not eases:
-            return replace(step, iterations=iterations, relaxed=again), level
-    return replace(step, iterations=iterations, relaxed=again), _lowered(level, FADING)
+            return replace(step, iterations=iterations, relaxed=again), Damping(level, rest)
+    left = Damping(_lowered(level, FADING), rest)
+    return replace(step, iterations=iterations, relaxed=again), left
 
 
 def _negligible(step: AcceptedStep) -> bool:

@@ -29,7 +29,7 @@ from fem.stepping.observers import (
 from fem.stepping.phases import Phase
 from fem.stepping.point import Records, RunPoint, RunRecord, columns
 from fem.stepping.programme import programme
-from fem.stepping.relaxation import relaxed
+from fem.stepping.relaxation import Damping, relaxed
 from fem.stepping.step_control import StepController, StepPlan
 
 #: Shortest step where the rubber itself damps the snaps, over the shortest one elsewhere: there
@@ -185,7 +185,14 @@ class Run:
                         ends=stop == phase.end,
                     )
                 )
-                plan = control.accepted(plan, length, attempt.hardest_pass, left, at=stop)
+                plan = control.accepted(
+                    plan,
+                    length,
+                    attempt.hardest_pass,
+                    help_left=left.level,
+                    rest=left.rest,
+                    at=stop,
+                )
                 tried = 0.0
                 self.point = self._point(number, plan, before)
                 self._report()
@@ -227,12 +234,12 @@ class Run:
 
     def _attempt(
         self, phase: Phase, plan: StepPlan, stop: float
-    ) -> tuple[AcceptedStep | RejectedStep, float]:
-        """A planned step, relaxed if it was damped, and the level of damping that this left."""
+    ) -> tuple[AcceptedStep | RejectedStep, Damping]:
+        """A planned step, relaxed if it was damped, and the damping that this left."""
         attempt = self.model.advance(self.state, phase.target(plan.at, stop), plan.help)
         if plan.help > 0.0 and isinstance(attempt, AcceptedStep):
-            return relaxed(self.model, attempt, plan.help)
-        return attempt, 0.0
+            return relaxed(self.model, attempt, Damping(plan.help, plan.rest))
+        return attempt, Damping()
 
     def _accept(self, moment: Moment) -> None:
         self.state = moment.step.after

@@ -18,6 +18,8 @@ class StepPlan:
         What an earlier failure bounds the next lengths by.
     help : float
         Level of the help it gets (damping); 0 for none.
+    rest : int
+        How many steps are still to keep that level.
     at : float
         Where the step starts.
     failed : bool
@@ -27,6 +29,7 @@ class StepPlan:
     step: float
     bound: float = inf
     help: float = 0.0
+    rest: int = 0
     at: float = 0.0
     failed: bool = False
 
@@ -78,8 +81,9 @@ class StepController:
         plan: StepPlan,
         length: float,
         iterations: int,
-        help_left: float = 0.0,
         *,
+        help_left: float = 0.0,
+        rest: int = 0,
         at: float = 0.0,
     ) -> StepPlan:
         """Plan from `at` on, after an accepted step of this length; the help left goes on."""
@@ -89,7 +93,7 @@ class StepController:
         elif iterations > self.hard:
             step *= self.shrink
         step = min(max(min(step, bound), self.step_min), self.step_max)
-        return StepPlan(step=step, bound=bound, help=help_left, at=at)
+        return StepPlan(step=step, bound=bound, help=help_left, rest=rest, at=at)
 
     def rejected(self, plan: StepPlan, length: float) -> StepPlan:
         """Plan after a failed step of this length: more help, or more and a shorter step."""

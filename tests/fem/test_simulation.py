@@ -89,8 +89,11 @@ def test_the_work_is_that_of_the_forces_in_the_history(run):
 
 
 def test_the_normal_force_is_five_newtons_per_millimetre(run):
-    assert run.history["normal_force_N_per_mm"].iloc[-1] == pytest.approx(5.0, rel=1e-3)
-    assert run.history["normal_force_N_per_mm"].iloc[3] == pytest.approx(5.0, rel=1e-3)
+    """Of a step in which the leading edge snaps but for the rubber that it accelerates."""
+    force = run.history["normal_force_N_per_mm"].iloc[3:]
+    assert force.iloc[0] == pytest.approx(5.0, rel=1e-3)
+    assert force.median() == pytest.approx(5.0, rel=1e-4)
+    assert force.to_numpy() == pytest.approx(5.0, rel=2e-3)
 
 
 def test_friction_in_steady_slip_is_mu_times_the_normal_force(coulomb):

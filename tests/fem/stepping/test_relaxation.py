@@ -10,7 +10,27 @@ from fem.simulation import coupled_model
 from fem.stepping.audit import EnergyAudit, audited
 from fem.stepping.coupled_state import AcceptedStep, RejectedStep
 from fem.stepping.programme import programme
-from fem.stepping.relaxation import FADING, LAST_LEVEL, NEGLIGIBLE, relaxed
+from fem.stepping.relaxation import (
+    FADING,
+    LAST_LEVEL,
+    NEGLIGIBLE,
+    REST,
+    Damping,
+    relaxed,
+)
+
+FAILED = RejectedStep(failure=newton.Failure.STALLED, detail="", iterations=7)
+
+
+class Stubborn:
+    """A model that finds solutions with a damping of at least 1 only."""
+
+    def __init__(self, model):
+        self.model, self.levels = model, []
+
+    def advance(self, state, target, level, guess):
+        self.levels.append(level)
+        return self.model.advance(state, target, level, guess) if level >= 1.0 else FAILED
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +64,7 @@ def sliding(pressed):
 def test_where_an_undamped_solution_exists_relaxation_ends_next_to_it(sliding):
     model, state, target = sliding
     damped, elastic = model.advance(state, target, 4.0), model.advance(state, target)
-    step, level = relaxed(model, damped, 4.0)
+    step, (level, _) = relaxed(model, damped, Damping(4.0))
     forces = [s.after.contact.friction_force for s in (damped, elastic, step)]
     assert level < 0.1
     assert step.energies.viscous <= NEGLIGIBLE * forces[2] * target.sweep
@@ -60,15 +80,15 @@ def test_damping_that_dissipates_next_to_nothing_fades_without_another_solution(
     weak = model.advance(state, target, LAST_LEVEL)
     level = 0.5
     slack = replace(weak, energies=replace(weak.energies, viscous=0.0))
-    step, left = relaxed(model, slack, level)
+    step, left = relaxed(model, slack, Damping(level))
     assert (step.iterations, step.relaxed) == (weak.iterations, False)
-    assert left == FADING * level
+    assert left == Damping(FADING * level)
 
 
 def test_a_relaxed_step_starts_and_goes_where_the_damped_one_did(sliding):
     model, state, target = sliding
     damped = model.advance(state, target, 4.0)
-    step, _ = relaxed(model, damped, 4.0)
+    step, _ = relaxed(model, damped, Damping(4.0))
     assert step.before is state
     assert step.target is target
     assert step.after.time == damped.after.time
@@ -78,34 +98,32 @@ def test_a_relaxed_step_starts_and_goes_where_the_damped_one_did(sliding):
 def test_relaxation_ends_where_there_is_no_solution_and_counts_what_it_cost(sliding):
     model, state, target = sliding
     damped = model.advance(state, target, 4.0)
-
-    failed = RejectedStep(failure=newton.Failure.STALLED, detail="", iterations=7)
-
-    class Stubborn:
-        """Finds solutions with a damping of at least 1."""
-
-        def __init__(self):
-            self.levels = []
-
-        def advance(self, state, target, level, guess):
-            self.levels.append(level)
-            found = model.advance(state, target, level, guess)
-            return found if level >= 1.0 else failed
-
-    stubborn = Stubborn()
-    step, level = relaxed(stubborn, damped, 4.0)
+    stubborn = Stubborn(model)
+    step, (level, rest) = relaxed(stubborn, damped, Damping(4.0))
     # a quarter, a quarter of that in vain, and the same as before once more
     assert stubborn.levels == [1.0, 0.25, 1.0]
-    assert level == 1.0
+    assert (level, rest) == (1.0, REST)
     assert step.problem.load.damping is not None
-    assert step.iterations > damped.iterations + 7
+    assert step.iterations > damped.iterations + FAILED.iterations
+
+
+def test_steps_after_a_quarter_in_vain_keep_their_damping_for_a_while(sliding):
+    model, state, target = sliding
+    damped, stubborn = model.advance(state, target, 4.0), Stubborn(model)
+    damping, tried = Damping(4.0, REST), []
+    while 0.25 not in stubborn.levels:
+        _, damping = relaxed(stubborn, damped, damping)
+        tried.append(damping)
+    assert stubborn.levels[:REST] == REST * [4.0]
+    assert [left.rest for left in tried[:REST]] == list(reversed(range(REST)))
+    assert tried[-1] == Damping(1.0, REST)
 
 
 def test_the_last_solution_has_no_damping_at_all(sliding):
     model, state, target = sliding
     weak = model.advance(state, target, LAST_LEVEL)
-    step, level = relaxed(model, weak, LAST_LEVEL)
-    assert level == 0.0
+    step, left = relaxed(model, weak, Damping(LAST_LEVEL))
+    assert left.level == 0.0
     assert step.problem.load.damping is None
 
 
@@ -119,7 +137,7 @@ def test_a_step_that_needed_no_damping_releases_nothing_in_the_audit(pressed):
         platen_force_y=pressing.target.force,
     )
     damped = model.advance(pressing.after, target, 4.0)
-    step, _ = relaxed(model, damped, 4.0)
+    step, _ = relaxed(model, damped, Damping(4.0))
     work = audited(before, step, mesh).work_in
     assert audited(before, damped, mesh).viscous > 0.02 * work
     assert audited(before, step, mesh).snaps < 2e-3 * work

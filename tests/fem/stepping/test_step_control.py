@@ -56,7 +56,8 @@ def test_help_has_an_end_and_cuts_have_none():
 
 def test_the_next_step_gets_the_help_that_is_left():
     plan = StepPlan(step=0.1, help=4.0)
-    assert CONTROL.accepted(plan, 0.1, 3, 0.5).help == 0.5
+    following = CONTROL.accepted(plan, 0.1, 3, help_left=0.5, rest=2)
+    assert (following.help, following.rest) == (0.5, 2)
     assert CONTROL.accepted(plan, 0.1, 3).help == 0.0
 
 
