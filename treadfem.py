@@ -425,20 +425,25 @@ def _add_export(commands: Any) -> None:
     _add_case_arguments(parser)
     text = "inp: CalculiX, in ABAQUS keywords"
     parser.add_argument("--format", choices=["inp"], default="inp", help=text)
+    text = "three dimensions: a slab W mm deep with free sides, of which the half is written"
+    parser.add_argument("--depth-mm", metavar="W", type=float, help=text)
+    text = "layers of bricks over that half; with --depth-mm"
+    parser.add_argument("--cells-z", metavar="N", type=int, help=text)
     _add_output(parser, "FILE", "file of the deck (default: CASE.inp, here)")
     parser.set_defaults(command=_export)
 
 
 def _export(arguments: argparse.Namespace) -> int:
-    from validation.calculix import friction_remark, write_deck
+    from validation.calculix import DeckOptions, friction_remark, slab_layers, write_deck
 
     case = _load(arguments)
+    layers = slab_layers(case.source, arguments.depth_mm, arguments.cells_z)
     path = chosen_output(arguments.output, Path(f"{Path(arguments.case).stem}.inp"))
     check_output_file(path)
     if not path.parent.is_dir():
         found = f"no folder {path.parent}"
         raise CaseError(str(path), "-o", found, "a file in a folder")
-    write_deck(case, path)
+    write_deck(case, path, DeckOptions(layers=layers))
     if remark := friction_remark(case):
         print(f"treadfem: {remark}", file=sys.stderr)
     print(path)

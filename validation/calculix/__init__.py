@@ -1,3 +1,3 @@
 """The same case in CalculiX: input decks, runs and their comparison."""
 
-from validation.calculix.export_deck import friction_remark, write_deck
+from validation.calculix.export_deck import DeckOptions, friction_remark, slab_layers, write_deck

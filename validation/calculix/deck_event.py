@@ -1,8 +1,11 @@
 """What an input deck does to the block over its time: amplitudes, loads, and what is printed."""
 
+import numpy as np
+
 from fem.case import Case
 from fem.mesh import BlockMesh
 from validation.calculix.deck_material import numbers
+from validation.calculix.deck_mesh import PLANE, Layers
 
 #: Deck time of pressing [-].
 PRESSING_TIME = 1.0
@@ -14,7 +17,7 @@ SLIDING_INCREMENTS = 200
 MOST_INCREMENTS = 100_000
 
 
-def event_lines(case: Case, mesh: BlockMesh, *, bonded: bool) -> list[str]:
+def event_lines(case: Case, mesh: BlockMesh, *, bonded: bool, layers: Layers = PLANE) -> list[str]:
     """Amplitudes and the step: the force rises to time 1, then the platen moves (if not bonded)."""
     distance = 0.0 if bonded else case.loading.distance_mm
     end = PRESSING_TIME + distance
@@ -28,17 +31,18 @@ def event_lines(case: Case, mesh: BlockMesh, *, bonded: bool) -> list[str]:
         "*BOUNDARY, AMPLITUDE=SLIDING",
         f"HELD, 1, 1, {mesh.direction}.",
         "*CLOAD, AMPLITUDE=PRESSING",
-        *top_loads(case, mesh),
-        *_requests("GLUED" if bonded else "ROAD"),
+        *top_loads(case, mesh, layers),
+        *_requests("GLUED" if bonded else "ROAD", layers),
         "*END STEP",
     ]
 
 
-def top_loads(case: Case, mesh: BlockMesh) -> list[str]:
-    """Nodal forces of the mean pressure on the front layer, which carries the back layer along."""
-    length = case.block.pressed_length_mm
-    force = -case.loading.mean_pressure_N_per_mm2 * length * mesh.top_shares
-    pairs = zip((mesh.top + 1).tolist(), force.tolist(), strict=True)
+def top_loads(case: Case, mesh: BlockMesh, layers: Layers = PLANE) -> list[str]:
+    """Nodal forces of the mean pressure on the top; in plane strain the front has them all."""
+    line_load = -case.loading.mean_pressure_N_per_mm2 * case.block.pressed_length_mm
+    force = line_load * np.outer(layers.shares, mesh.top_shares)
+    loaded = layers.through(mesh, mesh.top).reshape(force.shape)[layers.shares > 0.0] + 1
+    pairs = zip(loaded.ravel().tolist(), force[layers.shares > 0.0].ravel().tolist(), strict=True)
     return [f"{node}, 2, {numbers(value)}" for node, value in pairs]
 
 
@@ -51,13 +55,14 @@ def _amplitude(name: str, times: tuple[float, ...], values: tuple[float, ...]) -
     ]
 
 
-def _requests(held: str) -> list[str]:
-    """Output into the .dat file after each increment: surface and platen, reaction of the base."""
+def _requests(held: str, layers: Layers) -> list[str]:
+    """Output into the .dat file after each increment: surface and platen, reaction of the base.
+
+    Of a slab also all of the bottom and the free side.
+    """
+    moved = ["SURFACE", "TOP", *(["GLUED", "SIDE"] if layers.free else [])]
     return [
-        "*NODE PRINT, NSET=SURFACE",
-        "U",
-        "*NODE PRINT, NSET=TOP",
-        "U",
+        *(line for name in moved for line in (f"*NODE PRINT, NSET={name}", "U")),
         f"*NODE PRINT, NSET={held}, TOTALS=ONLY",
         "RF",
     ]

@@ -1,8 +1,9 @@
 """Input deck of a case for CalculiX, in keywords it shares with ABAQUS.
 
-Exported: the mesh as one layer of bricks in plane strain, the rubber, a rigid road, Coulomb
-friction, pressing and sliding. Not exported: heat, inertia, the Kelvin-Voigt regularisation and
-contact of the block with itself. The deck says so in its heading.
+Exported: the mesh as one layer of bricks in plane strain, or as several of half a slab with free
+sides, the rubber, a rigid road, Coulomb friction, pressing and sliding. Not exported: heat,
+inertia, the Kelvin-Voigt regularisation and contact of the block with itself. The deck says so in
+its heading.
 
 The time of the deck runs from 0 to 1 while the block is pressed, and then goes on with the sliding
 distance in mm. Both are in one step, driven by amplitudes: with a step of its own for the sliding,
@@ -18,18 +19,32 @@ Bricks and contact were chosen by measurement (version 2.20, tread block of the 
   contact it sinks 1.5 to 2 % deeper from the first slip on, and comes back at the end of the slide.
 """
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
 from contact.friction import CoulombFriction
 from fem.case import Case, CaseError
+from fem.case.errors import describe
 from fem.files import write_text
 from fem.mesh import BlockMesh
 from fem.stepping import mesh_of, sized
 from validation.calculix.deck_event import PRESSING_TIME, event_lines
 from validation.calculix.deck_material import hyperelastic_card, numbers
-from validation.calculix.deck_mesh import block_lines, free_surface_lines, road_lines, tie_lines
+from validation.calculix.deck_mesh import (
+    PLANE,
+    Layers,
+    block_lines,
+    free_surface_lines,
+    half_slab,
+    held_lines,
+    road_lines,
+    tie_lines,
+)
+
+#: Bricks of a slab; a deck of so many is 20 MB, and CalculiX solves one in twenty in an hour.
+MOST_BRICKS = 200_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +65,8 @@ class DeckOptions:
         the tangential stiffness.
     bonded : bool
         The bottom is glued to the road, and the block is only pressed.
+    layers : Layers
+        One in plane strain, or `half_slab`.
     """
 
     element: Literal["C3D8R", "C3D8I", "C3D8"] = "C3D8R"
@@ -57,6 +74,7 @@ class DeckOptions:
     penetration: float = 5e-5
     elastic_slip: float = 2e-4
     bonded: bool = False
+    layers: Layers = PLANE
 
 
 def input_deck(case: Case, options: DeckOptions | None = None) -> str:
@@ -76,31 +94,25 @@ def input_deck(case: Case, options: DeckOptions | None = None) -> str:
     Raises
     ------
     CaseError
-        If CalculiX has no such rubber, the block is rigid, or the case is an event of phases.
+        If CalculiX has no such rubber, the block is rigid, the case is an event of phases, or a
+        slab has too many bricks or another friction law than Coulomb's.
     """
     options = options or DeckOptions()
-    if case.loading.phase:
-        found = f"an event of {len(case.loading.phase)} phases"
-        expected = "one slide (mean_pressure_N_per_mm2, velocity_mm_per_s, distance_mm)"
-        raise CaseError(case.source, "loading.phase", found, expected)
-    if case.block.rigid:
-        raise CaseError(
-            case.source, "block.rigid", "true", "false: a rigid block has nothing to export"
-        )
+    _refuse_what_no_deck_has(case, options)
     case = sized(case)
-    mesh = mesh_of(case)
+    mesh, layers = mesh_of(case), options.layers
+    _refuse_too_many_bricks(case, mesh, layers)
+    bonded, platen = options.bonded, case.loading.top == "platen"
     lines = [
         *_heading(case, options),
-        *block_lines(mesh, options.element),
+        *block_lines(mesh, options.element, layers),
         "*MATERIAL, NAME=RUBBER",
         *hyperelastic_card(case),
         "*SOLID SECTION, ELSET=RUBBER, MATERIAL=RUBBER",
-        *tie_lines(mesh, platen=case.loading.top == "platen", bonded=options.bonded),
-        *([] if options.bonded else _road_and_contact(case, mesh, options)),
-        "*BOUNDARY",
-        "BLOCK, 3, 3",
-        "GLUED, 1, 2" if options.bonded else "ROAD, 1, 3",
-        *event_lines(case, mesh, bonded=options.bonded),
+        *tie_lines(mesh, platen=platen, bonded=bonded, layers=layers),
+        *([] if bonded else _road_and_contact(case, mesh, options)),
+        *held_lines(bonded=bonded, layers=layers),
+        *event_lines(case, mesh, bonded=bonded, layers=layers),
     ]
     return "\n".join(lines) + "\n"
 
@@ -130,15 +142,67 @@ def friction_remark(case: Case) -> str:
     )
 
 
+def slab_layers(source: str, depth_mm: float | None, cells: int | None) -> Layers:
+    """Layers of a deck from the options ``--depth-mm`` and ``--cells-z``; plane without both.
+
+    Raises
+    ------
+    CaseError
+        If one is missing, or is no depth or number of layers.
+    """
+    if depth_mm is None and cells is None:
+        return PLANE
+    if depth_mm is None:
+        raise CaseError(source, "--depth-mm", "nothing", "a depth in mm with --cells-z")
+    if cells is None:
+        raise CaseError(source, "--cells-z", "nothing", "a number of layers with --depth-mm")
+    if not (math.isfinite(depth_mm) and depth_mm > 0.0):
+        raise CaseError(source, "--depth-mm", f"{depth_mm:g}", "a depth above 0 in mm")
+    if cells < 1:
+        raise CaseError(source, "--cells-z", describe(cells), "at least 1 layer")
+    return half_slab(depth_mm, cells)
+
+
+def _refuse_what_no_deck_has(case: Case, options: DeckOptions) -> None:
+    if case.loading.phase:
+        found = f"an event of {len(case.loading.phase)} phases"
+        expected = "one slide (mean_pressure_N_per_mm2, velocity_mm_per_s, distance_mm)"
+        raise CaseError(case.source, "loading.phase", found, expected)
+    if case.block.rigid:
+        raise CaseError(
+            case.source, "block.rigid", "true", "false: a rigid block has nothing to export"
+        )
+    if options.layers.free and friction_remark(case):
+        found, expected = describe(case.friction.law), '"coulomb" and a mu for a slab'
+        raise CaseError(case.source, "friction.law", found, expected)
+
+
+def _refuse_too_many_bricks(case: Case, mesh: BlockMesh, layers: Layers) -> None:
+    most = MOST_BRICKS // len(mesh.cells)
+    if layers.free and layers.cells > most:
+        expected = f"at most {most} layers of {len(mesh.cells)} cells ({MOST_BRICKS} bricks)"
+        raise CaseError(case.source, "--cells-z", describe(layers.cells), expected)
+
+
 def _heading(case: Case, options: DeckOptions) -> list[str]:
+    layers = options.layers
+    depth = f"{2.0 * layers.depth:g} mm deep with free sides" if layers.free else "1 mm deep"
+    kind = "slab" if layers.free else "plane strain"
     lines = [
-        "treadfem: pressed and sliding tread block, plane strain, 1 mm deep; N, mm",
+        f"treadfem: pressed and sliding tread block, {kind}, {depth}; N, mm",
         f"case {' '.join(Path(case.source).name.split())}, content {case.hash()[:16]}",
         f"time 0 to {PRESSING_TIME:g}: pressing; then {PRESSING_TIME:g} + sliding distance [mm]",
         "left out: heat, inertia, Kelvin-Voigt regularisation, contact of the block with itself",
         "written for CalculiX. ABAQUS reads the second number of *FRICTION otherwise (leave it",
         "out) and wants TOTALS=YES where TOTALS=ONLY stands; the deck was not run with ABAQUS",
     ]
+    if layers.free:
+        lines += [
+            f"half of it, z = 0 is a plane of symmetry, z = {layers.depth:g} is free; "
+            "forces are of the half",
+            "the platen holds the top along z, too",
+            "left out: contact of the free side with the road, but at its edge",
+        ]
     if options.bonded:
         lines.append("the bottom is glued to the road; nothing slides")
     elif remark := friction_remark(case):
@@ -153,12 +217,12 @@ def _road_and_contact(case: Case, mesh: BlockMesh, options: DeckOptions) -> list
         # Tension at a large gap: how sharply the law bends at first touch.
         behaviour.append(1e-3 * pressure)
     lines = [
-        *road_lines(mesh, case.loading.distance_mm),
+        *road_lines(mesh, case.loading.distance_mm, options.layers),
         "*MATERIAL, NAME=ROAD",
         "*ELASTIC",
         "210000., 0.3",
         "*SOLID SECTION, ELSET=ROADBODY, MATERIAL=ROAD",
-        *free_surface_lines(mesh),
+        *free_surface_lines(mesh, options.layers),
         f"*CONTACT PAIR, INTERACTION=ROADCONTACT, TYPE={options.contact}",
         "FREE, ROADTOP",
         "*SURFACE INTERACTION, NAME=ROADCONTACT",

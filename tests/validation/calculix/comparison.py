@@ -31,8 +31,8 @@ import pandas as pd
 from fem import simulate
 from fem.case.case import Case
 from fem.results.result import Result
-from tests.validation.calculix.results import deck_history, read_dat
-from tests.validation.calculix.run import run_calculix
+from validation.calculix.deck_results import deck_history, read_dat
+from validation.calculix.deck_run import run_calculix
 from validation.calculix.export_deck import DeckOptions, write_deck
 
 #: Columns compared while the block is pressed (against the force) and while it slides.

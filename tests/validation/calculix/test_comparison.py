@@ -12,8 +12,10 @@ from tests.validation.calculix.comparison import (
     compared,
     largest_differences,
 )
-from tests.validation.calculix.run import CalculixError, calculix_program, run_calculix
 from tests.validation.sliding_cases import sliding_case
+from validation.calculix.deck_mesh import PLANE, half_slab
+from validation.calculix.deck_results import deck_history, read_dat
+from validation.calculix.deck_run import CalculixError, calculix_program, run_calculix
 from validation.calculix.export_deck import DeckOptions, write_deck
 
 needs_calculix = pytest.mark.skipif(
@@ -116,6 +118,31 @@ def test_graded_mesh_at_mu_0_3(tmp_path):
     assert largest_differences(table).max() < 0.02
 
 
+def slab_history(case, folder, layers, *, plane=False):
+    """History of a slab in CalculiX; `plane` holds all of it along z."""
+    deck = write_deck(case, folder / "deck.inp", DeckOptions(layers=layers))
+    if plane:
+        free, held = "MIDDLE, 3, 3\nHELD, 3, 3\n", "BLOCK, 3, 3\n"
+        assert free in deck.read_text()
+        deck.write_text(deck.read_text().replace(free, held))
+    return deck_history(case, read_dat(run_calculix(deck, timeout_s=TIMEOUT)), layers)
+
+
+@needs_calculix
+@pytest.mark.slow
+def test_slab_held_along_z_is_in_plane_strain_and_a_free_one_is_softer(tmp_path):
+    """The layers add nothing of their own: what differs is the depth."""
+    case = sliding_case(10, 4, loading__distance_mm=1.0)
+    plane = slab_history(case, tmp_path, PLANE).iloc[-1]
+    held = slab_history(case, tmp_path, half_slab(8.0, 4), plane=True).iloc[-1]
+    assert held["deck_time"] == plane["deck_time"] == 2.0
+    for column in ("friction_force_N_per_mm", "contact_length_mm", "platen_displacement_mm"):
+        assert held[column] == pytest.approx(plane[column], rel=1e-5)
+    free = slab_history(case, tmp_path, half_slab(8.0, 4)).iloc[-1]
+    assert free["normal_force_N_per_mm"] == pytest.approx(0.25 * 20.0, rel=1e-3)
+    assert free["platen_displacement_mm"] > 1.3 * plane["platen_displacement_mm"]
+
+
 @needs_calculix
 def test_deck_that_does_not_converge_is_an_error_in_one_line(tmp_path):
     deck = write_deck(sliding_case(), tmp_path / "deck.inp")
@@ -126,7 +153,7 @@ def test_deck_that_does_not_converge_is_an_error_in_one_line(tmp_path):
 
 
 def test_missing_calculix_is_named_with_its_package(tmp_path, monkeypatch):
-    monkeypatch.setattr("tests.validation.calculix.run.PROGRAM", "no-such-program")
+    monkeypatch.setattr("validation.calculix.deck_run.PROGRAM", "no-such-program")
     with pytest.raises(CalculixError, match="calculix-ccx"):
         run_calculix(tmp_path / "deck.inp")
 

@@ -14,6 +14,7 @@ from fem.stepping.model_parts import mesh_of
 from tests.validation.deck_reading import FACES, named, node_set, nodes, read_deck
 from tests.validation.sliding_cases import sliding_case
 from validation.calculix.deck_event import top_loads
+from validation.calculix.deck_mesh import half_slab
 from validation.calculix.export_deck import DeckOptions, friction_remark, input_deck
 
 MOONEY = {"compound": "mooney-rivlin-dumbbells"}
@@ -193,6 +194,103 @@ def test_bonded_deck_has_no_contact():
     assert ["GLUED", "1", "2"] in named(cards[: cards.index(named(cards, "STEP"))], "BOUNDARY").rows
 
 
+# ------------------------------------------------------------------------------------- a slab
+
+SLAB = DeckOptions(layers=half_slab(12.0, 3))
+
+
+@pytest.fixture(scope="module")
+def slab():
+    return read_deck(input_deck(sliding_case(), SLAB))
+
+
+def test_a_slab_has_a_brick_per_cell_and_layer_and_its_volume(slab):
+    mesh, bricks = mesh_of(sliding_case()), brick_corners(slab, "RUBBER")
+    assert len(bricks) == 3 * len(mesh.cells)
+    sides = [np.array([x[1] - x[0], x[3] - x[0], x[4] - x[0]]) for x in bricks.values()]
+    volumes = np.linalg.det(sides)
+    assert volumes.min() > 0.0
+    assert volumes.sum() == pytest.approx(20.0 * 8.0 * 6.0, rel=1e-12)
+
+
+def test_node_sets_of_a_slab_are_where_they_should_be(slab):
+    place, n = nodes(slab), len(mesh_of(sliding_case()).points)
+    at = {
+        name: np.array([place[i] for i in node_set(slab, name)])
+        for name in ("TOP", "SURFACE", "GLUED", "HELD", "MIDDLE", "SIDE")
+    }
+    sizes = {name: len(x) for name, x in at.items()}
+    assert sizes == {
+        "TOP": 9, "SURFACE": 17, "GLUED": 36, "HELD": 36, "MIDDLE": n - 9, "SIDE": n
+    }  # fmt: skip
+    for name in ("TOP", "SURFACE", "MIDDLE"):
+        assert np.all(at[name][:, 2] == 0.0)
+    assert np.all(at["SIDE"][:, 2] == 6.0)
+    for name, height in (("GLUED", 0.0), ("HELD", 8.0)):
+        assert np.all(at[name][:, 1] == height)
+        assert np.unique(at[name][:, 2]).tolist() == [0.0, 2.0, 4.0, 6.0]
+
+
+def test_contact_faces_of_a_slab_cover_bottom_and_ends_over_its_depth(slab):
+    bricks = brick_corners(slab, "RUBBER")
+    area = {"bottom": 0.0, "ends": 0.0}
+    for element, face in named(slab, "SURFACE", NAME="FREE").rows:
+        x = bricks[int(element)][np.array(FACES[face]) - 1]
+        size = np.linalg.norm(np.cross(x[1] - x[0], x[3] - x[0]))
+        area["bottom" if np.all(x[:, 1] == 0.0) else "ends"] += size
+    assert area == pytest.approx({"bottom": 120.0, "ends": 96.0}, rel=1e-12)
+
+
+def test_the_road_reaches_beyond_the_free_side(slab):
+    road = np.concatenate(list(brick_corners(slab, "ROADBODY").values()))
+    assert road[:, 2].min() < 0.0
+    assert road[:, 2].max() > 6.0
+
+
+@pytest.mark.parametrize("top", ["platen", "pressure"])
+def test_the_half_slab_carries_half_the_force_evenly_over_its_depth(top):
+    case = sliding_case(loading__top=top)
+    place = nodes(read_deck(input_deck(case, SLAB)))
+    loads = [line.split(",") for line in top_loads(case, mesh_of(case), SLAB.layers)]
+    per_layer = dict.fromkeys((0.0, 2.0, 4.0, 6.0), 0.0)
+    for node, component, value in loads:
+        assert int(component) == 2
+        assert place[int(node)][1] == 8.0
+        per_layer[place[int(node)][2]] += float(value)
+    whole = -0.25 * 20.0 * 6.0
+    expected = {0.0: whole / 6, 2.0: whole / 3, 4.0: whole / 3, 6.0: whole / 6}
+    assert per_layer == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("top", ["platen", "pressure"])
+@pytest.mark.parametrize("bonded", [False, True])
+def test_only_a_platen_ties_nodes_of_a_slab(top, bonded):
+    options = DeckOptions(layers=SLAB.layers, bonded=bonded)
+    cards = read_deck(input_deck(sliding_case(loading__top=top), options))
+    removed = [card.rows[1] for card in cards if card.name == "EQUATION"]
+    held, leader = set(node_set(cards, "HELD")), node_set(cards, "TOP")[0]
+    if top == "pressure":
+        assert not removed
+        return
+    assert {int(row[0]) for row in removed} == held - {leader}
+    assert {(row[1], int(row[3]), row[4]) for row in removed} == {("2", leader, "2")}
+
+
+def test_a_slab_is_free_along_z_but_at_its_middle_and_its_platen(slab):
+    fixed = named(slab[: slab.index(named(slab, "STEP"))], "BOUNDARY").rows
+    assert fixed == [["MIDDLE", "3", "3"], ["HELD", "3", "3"], ["ROAD", "1", "3"]]
+    heading = input_deck(sliding_case(), SLAB).split("*NODE")[0]
+    assert "slab, 12 mm deep with free sides" in heading
+    assert "z = 0 is a plane of symmetry, z = 6 is free" in heading
+    assert "half" in heading
+
+
+def test_a_slab_needs_constant_friction():
+    case = Case.from_dict({**sliding_case().to_dict(), "friction": {"law": "huemer"}})
+    with pytest.raises(CaseError, match=r"friction\.law: found \"huemer\""):
+        input_deck(case, SLAB)
+
+
 # ------------------------------------------------------------------------------ command line
 
 
@@ -245,3 +343,41 @@ def test_the_deck_of_a_siped_pair_of_blocks_has_all_curves_and_the_whole_force()
     loads = [float(line.split(",")[2]) for line in top_loads(case, mesh)]
     pressed = case.block.blocks * case.block.length_mm
     assert sum(loads) == pytest.approx(-case.loading.mean_pressure_N_per_mm2 * pressed, rel=1e-9)
+
+
+def test_command_writes_a_slab(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    words = ["export", str(write_case(tmp_path)), "--set", "block.mesh=coarse"]
+    assert treadfem.main([*words, "--depth-mm", "12", "--cells-z", "3"]) == 0
+    case = Case.from_toml(tmp_path / "case.toml", {"block.mesh": "coarse"})
+    assert (tmp_path / "case.inp").read_text() == input_deck(case, SLAB)
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        ("--depth-mm 40", "--cells-z: found nothing"),
+        ("--cells-z 4", "--depth-mm: found nothing"),
+        ("--depth-mm 0 --cells-z 4", "--depth-mm: found 0, expected a depth above 0"),
+        ("--depth-mm -1 --cells-z 4", "--depth-mm: found -1"),
+        ("--depth-mm nan --cells-z 4", "--depth-mm: found nan"),
+        ("--depth-mm inf --cells-z 4", "--depth-mm: found inf"),
+        ("--depth-mm deep --cells-z 4", "argument --depth-mm: invalid float value: 'deep'"),
+        ("--depth-mm 40 --cells-z 0", "--cells-z: found 0, expected at least 1 layer"),
+        ("--depth-mm 40 --cells-z -3", "--cells-z: found -3"),
+        ("--depth-mm 40 --cells-z 2.5", "argument --cells-z: invalid int value: '2.5'"),
+        ("--depth-mm 40 --cells-z 9999999", "--cells-z: found 9999999, expected at most"),
+    ],
+)
+def test_command_refuses_a_wrong_slab_in_one_line(words, says, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    path = write_case(tmp_path)
+    try:
+        code = treadfem.main(["export", str(path), *words.split()])
+    except SystemExit as stop:
+        code = stop.code
+    said = capsys.readouterr().err
+    assert code == 2
+    assert says in said
+    assert said.count("\n") == 1
+    assert list(tmp_path.iterdir()) == [path]

@@ -16,6 +16,7 @@ from fem.mesh.block import BlockMesh
 from fem.stepping.model_parts import mesh_of
 from materials.arrays import FloatArray
 from validation.calculix.deck_event import PRESSING_TIME
+from validation.calculix.deck_mesh import PLANE, Layers
 
 _TITLE = re.compile(
     r"^\s*(?P<quantity>[a-z][a-z ()-]*?)\s*\((?P<columns>[^)]*)\)\s*for set\s+(?P<set>\S+)"
@@ -96,7 +97,7 @@ def _table(title: re.Match[str], rows: Sequence[Sequence[str]], path: str | Path
     )
 
 
-def deck_history(case: Case, tables: Sequence[DatTable]) -> pd.DataFrame:
+def deck_history(case: Case, tables: Sequence[DatTable], layers: Layers = PLANE) -> pd.DataFrame:
     """History of an exported deck, a row per increment, with the columns of ``history.csv``.
 
     Parameters
@@ -105,6 +106,8 @@ def deck_history(case: Case, tables: Sequence[DatTable]) -> pd.DataFrame:
         The case that was exported.
     tables : sequence of DatTable
         From `read_dat`.
+    layers : Layers
+        Those of the deck. Forces of a slab are per depth, its contact is that of its middle.
 
     Returns
     -------
@@ -120,7 +123,10 @@ def deck_history(case: Case, tables: Sequence[DatTable]) -> pd.DataFrame:
     reaction = _by_time(tables, "total force", {"ROAD", "GLUED"})
     times = sorted(surface.keys() & platen.keys() & reaction.keys())
     return pd.DataFrame(
-        [_row(mesh, surface[t], platen[t].values, reaction[t].values[0]) for t in times]
+        [
+            _row(mesh, surface[t], platen[t].values, reaction[t].values[0] / layers.depth)
+            for t in times
+        ]
     )
 
 

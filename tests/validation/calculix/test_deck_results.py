@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fem.stepping.model_parts import mesh_of
-from tests.validation.calculix.results import contact_length, deck_history, read_dat
 from tests.validation.sliding_cases import sliding_case
+from validation.calculix.deck_results import contact_length, deck_history, read_dat
 
 TEXT = """
  displacements (vx,vy,vz) for set TOP and time  0.5000000E+00
