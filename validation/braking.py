@@ -64,12 +64,17 @@ def contacts_of(result: Result) -> pd.DataFrame:
     return pd.DataFrame(dict(zip(names, columns, strict=True)))
 
 
+def volume_of(result: Result) -> float:
+    """Volume that wore off, per depth [mm^2]."""
+    return float(result.summary["wear_volume_mm3_per_mm"])
+
+
 def slip_table(results: list[Result]) -> pd.DataFrame:
     """A row per slip: the first and the last contact, and what wore off in all."""
     rows = []
     for result in results:
         contacts, summary = contacts_of(result), result.summary
-        volume, length = summary["wear_volume_mm3_per_mm"], result.case.block.length_mm
+        volume, length = volume_of(result), result.case.block.length_mm
         first, last = contacts.iloc[0], contacts.iloc[-1]
         velocity = result.case.loading.velocity_mm_per_s
         rows.append(
@@ -113,7 +118,8 @@ def draw_slips(results: list[Result]) -> Figure:
         grip.plot(contacts["contact"], contacts["friction_coefficient"], **look)
         work.plot(contacts["contact"], contacts["friction_work_mJ_per_mm"], **look)
         bottom = result.boundary[result.boundary["chain"] == "bottom"]
-        wear.plot(bottom["X_mm"], bottom["wear_depth_um"], color=colour, label=label)
+        depth = bottom["wear_depth_um"] / (1e3 * volume_of(result) / result.case.block.length_mm)
+        wear.plot(bottom["X_mm"], depth, color=colour, label=label)
     for axes, title, unit in (
         (heat, "Bottom at the end of a contact", "highest temperature [°C]"),
         (grip, "Grip", "friction coefficient [-]"),
@@ -124,11 +130,11 @@ def draw_slips(results: list[Result]) -> Figure:
     work.set_yscale("log")
     wear.set(
         xlabel="$X$ from the trailing to the leading corner [mm]",
-        ylabel="depth [µm]",
-        yscale="log",
-        title="Wear after all of it",
+        ylabel="depth over its mean [-]",
+        ylim=(0.0, 2.0),
+        title="Wear of the bottom after all of it",
     )
-    grip.legend(title="slip")
+    wear.legend(title="slip", loc="lower center")
     wear.set_xlim(0.0, max(result.case.block.length_mm for result in results))
     for axes in (heat, grip, work, wear):
         axes.grid(True)

@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import NamedTuple
 
-from fem.stepping.coupled_state import AcceptedStep
+from fem.stepping.coupled_state import AcceptedStep, RejectedStep
 from fem.stepping.coupled_step import CoupledModel
 
 #: Factor of the damping from one solution to the next; with a half it takes a third more of them.
@@ -29,10 +29,15 @@ EASING = 0.25
 LAST_LEVEL = 0.01
 #: Share of the work of a step that its damping may dissipate without being relaxed [-].
 NEGLIGIBLE = 1e-4
+#: Share of it up to which a step may keep its damping without a try with less [-].
+TOLERABLE = 2e-3
 #: Factor of the level from one step to the next where its damping is negligible.
 FADING = 0.85
 #: Steps that keep the damping after one that found no solution with less.
 REST = 4
+#: How often a step keeps its damping for another solution: while the road moves on the next steps
+#: take what is left; a block that is lifted off would leave the road before its shear is released.
+HOLDS, HOLDS_AT_REST = 1, 4
 
 
 class Damping(NamedTuple):
@@ -63,9 +68,11 @@ def relaxed(
     damping : Damping
         That of the next step.
     """
-    level, rest = damping.level, max(damping.rest - 1, 0)
-    iterations, eases, again = step.iterations, damping.rest == 0, False
-    while level > 0.0 and not _negligible(step):
+    level, rest, holds = damping.level, max(damping.rest - 1, 0), 0
+    holds_max = HOLDS if step.target.sweep else HOLDS_AT_REST
+    eases = damping.rest == 0 or not _takes_at_most(TOLERABLE, step)
+    iterations, again = step.iterations, False
+    while level > 0.0 and not _takes_at_most(NEGLIGIBLE, step):
         other = _lowered(level, EASING) if eases else level
         attempt = model.advance(step.before, step.target, other, guess=step)
         iterations, again = iterations + attempt.iterations, True
@@ -75,15 +82,17 @@ def relaxed(
             eases, rest = False, REST
             continue
         if not eases:
-            return replace(step, iterations=iterations, relaxed=again), Damping(level, rest)
+            holds, eases = holds + 1, True
+            if holds == holds_max or isinstance(attempt, RejectedStep):
+                return replace(step, iterations=iterations, relaxed=again), Damping(level, rest)
     left = Damping(_lowered(level, FADING), rest)
     return replace(step, iterations=iterations, relaxed=again), left
 
 
-def _negligible(step: AcceptedStep) -> bool:
-    """Whether the damping dissipates next to nothing of the work of a step."""
+def _takes_at_most(share: float, step: AcceptedStep) -> bool:
+    """Whether the damping dissipates at most that share of the work of a step."""
     work = step.after.contact.friction_force * step.target.sweep
-    return step.energies.viscous <= NEGLIGIBLE * abs(work)
+    return step.energies.viscous <= share * abs(work)
 
 
 def _lowered(level: float, factor: float) -> float:

@@ -12,9 +12,11 @@ from fem.stepping.coupled_state import AcceptedStep, RejectedStep
 from fem.stepping.programme import programme
 from fem.stepping.relaxation import (
     FADING,
+    HOLDS_AT_REST,
     LAST_LEVEL,
     NEGLIGIBLE,
     REST,
+    TOLERABLE,
     Damping,
     relaxed,
 )
@@ -107,16 +109,40 @@ def test_relaxation_ends_where_there_is_no_solution_and_counts_what_it_cost(slid
     assert step.iterations > damped.iterations + FAILED.iterations
 
 
-def test_steps_after_a_quarter_in_vain_keep_their_damping_for_a_while(sliding):
+@pytest.fixture(scope="module")
+def nearly_elastic(sliding):
+    """A step whose damping takes a thousandth of its work."""
+    model, state, target = sliding
+    damped = model.advance(state, target, 4.0)
+    work = damped.after.contact.friction_force * target.sweep
+    return replace(damped, energies=replace(damped.energies, viscous=0.5 * TOLERABLE * work))
+
+
+def test_steps_after_a_quarter_in_vain_keep_their_damping_for_a_while(sliding, nearly_elastic):
+    stubborn = Stubborn(sliding[0])
+    _, damping = relaxed(stubborn, nearly_elastic, Damping(1.0, REST))
+    assert stubborn.levels == [1.0]
+    assert damping == Damping(1.0, REST - 1)
+    stubborn.levels.clear()
+    _, damping = relaxed(stubborn, nearly_elastic, Damping(1.0, 0))
+    assert stubborn.levels == [0.25, 1.0]
+    assert damping == Damping(1.0, REST)
+
+
+def test_damping_that_takes_more_than_a_little_of_the_work_gets_no_rest(sliding):
     model, state, target = sliding
     damped, stubborn = model.advance(state, target, 4.0), Stubborn(model)
-    damping, tried = Damping(4.0, REST), []
-    while 0.25 not in stubborn.levels:
-        _, damping = relaxed(stubborn, damped, damping)
-        tried.append(damping)
-    assert stubborn.levels[:REST] == REST * [4.0]
-    assert [left.rest for left in tried[:REST]] == list(reversed(range(REST)))
-    assert tried[-1] == Damping(1.0, REST)
+    relaxed(stubborn, damped, Damping(4.0, REST))
+    assert stubborn.levels == [1.0, 0.25, 1.0]
+
+
+def test_a_block_at_rest_keeps_its_damping_for_more_solutions_before_it_goes_on(sliding):
+    model, state, target = sliding
+    damped, stubborn = model.advance(state, target, 4.0), Stubborn(model)
+    still = replace(damped, target=replace(target, sweep=0.0))
+    _, (level, _) = relaxed(stubborn, still, Damping(1.0))
+    assert stubborn.levels == HOLDS_AT_REST * [0.25, 1.0]
+    assert level == 1.0
 
 
 def test_the_last_solution_has_no_damping_at_all(sliding):
