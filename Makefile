@@ -11,7 +11,7 @@ TABLES  := table1 table2 table3 table4
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence braking slip blocks memory clean distclean $(FIGURES) $(TABLES)
+.PHONY: help run test test-all lint format bench bench-update bench-scaling figures claims sensitivity report robustness convergence braking slip blocks memory slab clean distclean $(FIGURES) $(TABLES)
 
 help:
 	@echo "make run        the introductory example into $(RESULTS)/run"
@@ -31,6 +31,7 @@ help:
 	@echo "make slip       braking at 5, 10, 20 % slip and with a locked wheel, into $(RESULTS)/slip"
 	@echo "make blocks     plain, chamfered and siped blocks and two in a row side by side, into $(RESULTS)/blocks"
 	@echo "make memory     slides and an ABS event with rubber that remembers; rewrites validation/memory_*.csv"
+	@echo "make slab       slabs of several depths against plane strain, needs CalculiX; rewrites validation/slab.csv and docs/verification.md"
 	@echo "make clean      remove results and caches (make distclean: .venv too)"
 
 $(READY): setup.cfg pyproject.toml constraints.txt
@@ -127,6 +128,9 @@ memory: $(READY)
 	for study in memory_slides memory_event; do \
 	  $(BIN)/treadfem sweep validation/studies/$$study.toml -o $(RESULTS)/$$study --resume --accept-unusual || exit; done
 	$(BIN)/python -m validation.bulk_memory $(RESULTS)/memory_slides $(RESULTS)/memory_event -o $(RESULTS)
+
+slab: $(READY)
+	$(BIN)/python -m validation.slab $(RESULTS)/slab
 
 clean:
 	rm -rf $(RESULTS) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks

@@ -210,9 +210,14 @@ def _heading(case: Case, options: DeckOptions) -> list[str]:
     return ["*HEADING", lines[0], *(f"** {line}" for line in lines[1:])]
 
 
+def normal_stiffness(case: Case, mesh: BlockMesh, options: DeckOptions) -> float:
+    """Contact pressure over depth below the road [N/mm^3]."""
+    return case.loading.mean_pressure_N_per_mm2 / (options.penetration * mesh.height)
+
+
 def _road_and_contact(case: Case, mesh: BlockMesh, options: DeckOptions) -> list[str]:
     pressure, mu = case.loading.mean_pressure_N_per_mm2, friction_coefficient(case)
-    behaviour = [pressure / (options.penetration * mesh.height)]
+    behaviour = [normal_stiffness(case, mesh, options)]
     if options.contact == "NODE TO SURFACE":
         # Tension at a large gap: how sharply the law bends at first touch.
         behaviour.append(1e-3 * pressure)

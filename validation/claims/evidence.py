@@ -5,6 +5,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import pandas as pd
+
 from contact.friction import ExponentialFriction, HuemerFriction
 from fem.results import Result
 from fem.sweeps import StudyRun, study_runs
@@ -12,6 +14,7 @@ from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Hyperelastic
 from validation.drawing import reached
 from validation.paper import introductory_run
+from validation.slab import TABLE as SLABS
 from validation.studies import cases_of
 
 EXPONENTIAL, HUEMER = "exponential", "huemer"
@@ -81,6 +84,11 @@ class Evidence:
             )
             found.setdefault(point, {})[run["friction.law"]] = _result(run)
         return dict(sorted(found.items()))
+
+    @cached_property
+    def slabs(self) -> pd.DataFrame:
+        """Slabs against plane strain, the committed table of ``make slab``."""
+        return pd.read_csv(SLABS)
 
     def changed(self, overrides: Mapping[str, Any]) -> Result:
         """The introductory example with other case keys, out of the ledger's own study."""

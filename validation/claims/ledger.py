@@ -7,7 +7,14 @@ from functools import partial
 import pandas as pd
 
 from validation.analysis import PAPER_N_PER_MM
-from validation.claims import section_2_1, section_4_2, section_5_1, section_5_2, section_6
+from validation.claims import (
+    section_2_1,
+    section_4_1,
+    section_4_2,
+    section_5_1,
+    section_5_2,
+    section_6,
+)
 from validation.claims.claim import DIFFERS, HOLDS, UNCHECKED, Claim, Finding, unchecked
 from validation.claims.evidence import Evidence, UnfinishedError
 from validation.claims.phrases import say
@@ -16,6 +23,7 @@ from validation.drawing import COMPOUND_LOOKS
 
 _SECTIONS = {
     "2.1": section_2_1,
+    "4.1": section_4_1,
     "4.2": section_4_2,
     "5.1": section_5_1,
     "5.2": section_5_2,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from fem.results.result import Result
 from materials.compounds import COMPOUNDS
@@ -69,7 +70,22 @@ def paper_like_evidence() -> MadeUpEvidence:
     hotter = with_summary(base, T_max_C=base.summary["T_max_C"] + 3.0)
     evidence.with_changes = scaled(hotter, SIZE[MOONEY_RIVLIN] + 0.05)
     evidence.rubbers = {**COMPOUNDS, **made_up_rubbers()}
+    evidence.slabs = slabs()
     return evidence
+
+
+def slabs(softer: float = 0.05) -> pd.DataFrame:
+    """Slabs of three depths that are a little softer than plane strain."""
+    return pd.DataFrame(
+        {
+            "depth_over_height": [1.0, 5.0, 20.0],
+            "force_at_2_mm": 1.0,
+            "middle_platen_at_equal_load": 1.0 + softer,
+            "platen_pressed": 1.0 + softer,
+            "depth_strain_share_pressed": 0.02,
+            "depth_strain_share_slid": 0.03,
+        }
+    )
 
 
 def made_up_rubbers() -> dict[str, Yeoh]:

@@ -9,13 +9,20 @@ import numpy as np
 import pytest
 
 from tests.validation.claims.made_up_evidence import MadeUpEvidence
-from validation.claims import section_2_1, section_4_2, section_5_1, section_5_2, section_6
+from validation.claims import (
+    section_2_1,
+    section_4_1,
+    section_4_2,
+    section_5_1,
+    section_5_2,
+    section_6,
+)
 from validation.claims.claim import Claim
 from validation.claims.ledger import CLAIMS
 from validation.claims.phrases import say
 from validation.claims.statements import CHANGES, STATEMENTS, TEXTS
 
-SECTIONS = (section_2_1, section_4_2, section_5_1, section_5_2, section_6)
+SECTIONS = (section_2_1, section_4_1, section_4_2, section_5_1, section_5_2, section_6)
 NUMBERS = {"a": 1.0, "b": 3.0}
 
 
