@@ -70,7 +70,7 @@ def computed(case: Case, layers: Layers, folder: Path, *, timeout_s: float = TIM
     folder.mkdir(parents=True, exist_ok=True)
     options = DeckOptions(layers=layers)
     deck, text = folder / "deck.inp", input_deck(case, options)
-    tables = _kept(deck, text, end=PRESSING_TIME + case.loading.distance_mm)
+    tables = kept_tables(deck, text, end=PRESSING_TIME + case.loading.distance_mm)
     if not tables:
         write_text(deck, text)
         tables = read_dat(run_calculix(deck, timeout_s=timeout_s))
@@ -81,7 +81,7 @@ def computed(case: Case, layers: Layers, folder: Path, *, timeout_s: float = TIM
     return Run(history=pd.concat([history, pd.DataFrame(parts)], axis=1))
 
 
-def _kept(deck: Path, text: str, *, end: float) -> list[DatTable]:
+def kept_tables(deck: Path, text: str, *, end: float) -> list[DatTable]:
     """Tables of an earlier run of the same deck, if it got to its end."""
     results = deck.with_suffix(".dat")
     if not (results.is_file() and deck.is_file() and deck.read_text(encoding="utf-8") == text):

@@ -11,7 +11,7 @@ from validation import slab
 from validation.analysis import with_block
 from validation.calculix.deck_mesh import PLANE, half_slab
 from validation.calculix.deck_run import CalculixError, calculix_program
-from validation.slab import SHOWN, TABLE, Run, block, compared, main, row
+from validation.slab import SHOWN, TABLE, Run, block, compared, kept_tables, main, row
 
 TIMES = [0.5, 0.99, 1.01, 1.5, 3.0]
 
@@ -72,6 +72,21 @@ def test_what_calculix_does_not_finish_is_a_row_with_its_reason(tmp_path, monkey
         "status": "ccx took more than 1 s",
     }
     assert "took more than" in block(pd.DataFrame([found]))
+
+
+def test_only_finished_results_of_the_same_deck_are_kept(tmp_path):
+    deck, results = tmp_path / "deck.inp", tmp_path / "deck.dat"
+    head = " total force (fx,fy,fz) for set ROAD and time {time:15.7E}\n\n"
+    whole = head.format(time=3.0) + " -1.5 5.0 0.0\n"
+    deck.write_text("*HEADING\n")
+    assert not kept_tables(deck, "*HEADING\n", end=3.0)
+    results.write_text(whole)
+    (table,) = kept_tables(deck, "*HEADING\n", end=3.0)
+    assert table.time == 3.0
+    assert not kept_tables(deck, "*HEADING other\n", end=3.0)
+    for unfinished in (head.format(time=2.9) + " -1.5 5.0 0.0\n", whole + " -1.5\n", ""):
+        results.write_text(unfinished)
+        assert not kept_tables(deck, "*HEADING\n", end=3.0)
 
 
 def test_without_calculix_one_line_says_so(tmp_path, monkeypatch, capsys):
