@@ -49,11 +49,12 @@ def contacts_table(history: pd.DataFrame, ambient_C: float) -> pd.DataFrame:
 def _row(history: pd.DataFrame, first: int, last: int, ambient_C: float) -> dict[str, float]:
     """Of the steps from `first` to `last`; in the one before them the block was in air.
 
-    The sums have what it slips while it is lifted off, too.
+    The sums have what it slips while it is lifted off, too, until it touches no more.
     """
     end: Any = history.loc[last]
-    free = history.index[(history.index > last) & (history["contact_length_mm"] == 0.0)]
-    left: Any = history.loc[free[0]] if len(free) else history.iloc[-1]
+    same = history["contact"] == end["contact"]
+    touching = history.index[same & (history["contact_length_mm"] > 0.0)]
+    left: Any = history.loc[min(max(touching[-1], last) + 1, history.index[-1])]
     before: Any = history.loc[first - 1] if first > 0 else None
 
     def change(column: str) -> float:
