@@ -64,8 +64,8 @@ def robustness_table(summary: pd.DataFrame) -> pd.DataFrame:
     """The columns of the committed table, of a sweep's summary; of blocks their outlines, too."""
     blocks = OUTLINES.keys() <= set(summary)
     varied = OUTLINES | VARIED if blocks else VARIED
-    columns = [*varied.values(), *FOUND, *(["advice"] if blocks else [])]
-    table = summary.rename(columns=varied)[columns].copy()
+    columns = [*varied, *FOUND, *(["advice"] if blocks else [])]
+    table = summary[columns].rename(columns=varied)
     if blocks:
         # The summary has the text of the list.
         table["sipes"] = table["sipes"].astype(str).str.count("position_mm")

@@ -13,7 +13,7 @@ import pandas as pd
 from fem.files import write_table, write_text
 from validation.analysis import with_block
 from validation.convergence.onset import swept_runs
-from validation.convergence.robustness import TABLE as ROBUSTNESS
+from validation.convergence.robustness import BLOCKS, TABLES, VISCOELASTIC
 from validation.convergence.table import CONVERGENCE, ONSET, convergence_table, onset_table
 from validation.convergence.text import convergence_text, onset_text, robustness_text
 
@@ -43,10 +43,19 @@ def block() -> str:
         "damping itself takes there\n([validation/onset.csv](../validation/onset.csv)):\n\n"
         f"{onset_text(pd.read_csv(ONSET))}\n\n"
         "The robustness study runs all rubbers of Table 1 with both friction laws and with "
-        "constant\ncoefficients, with one set of solver settings "
-        "([validation/robustness.csv](../validation/robustness.csv)):\n\n"
-        f"{robustness_text(pd.read_csv(ROBUSTNESS))}\n"
+        f"constant\ncoefficients, with one set of solver settings ({_link('')}):\n\n"
+        f"{robustness_text(pd.read_csv(TABLES['']))}\n\n"
+        "The same with a rubber that remembers and damps its snaps itself, on the coarse mesh\n"
+        f"({_link(VISCOELASTIC)}):\n\n{robustness_text(pd.read_csv(TABLES[VISCOELASTIC]))}\n\n"
+        "Chamfered and siped blocks and two in a row, of three rubbers\n"
+        f"({_link(BLOCKS)}):\n\n{robustness_text(pd.read_csv(TABLES[BLOCKS]))}\n"
     )
+
+
+def _link(variant: str) -> str:
+    """Link to a table of robustness from the page."""
+    name = TABLES[variant].name
+    return f"[validation/{name}](../validation/{name})"
 
 
 def main(folders: list[str]) -> None:
@@ -54,7 +63,7 @@ def main(folders: list[str]) -> None:
     if folders:
         write_tables(*map(Path, folders))
     write_text(PAGE, with_block(PAGE.read_text(encoding="utf-8"), BLOCK, block()))
-    print(f"{PAGE}: renewed from {CONVERGENCE.name}, {ONSET.name} and {ROBUSTNESS.name}")
+    print(f"{PAGE}: renewed from {CONVERGENCE.name}, {ONSET.name} and those of robustness")
 
 
 if __name__ == "__main__":

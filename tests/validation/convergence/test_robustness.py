@@ -1,10 +1,19 @@
-"""The robustness study: its committed table, and a spread of it repeated on the coarse mesh."""
+"""The robustness study: its committed tables, and a spread of it repeated on the coarse mesh."""
 
 import pandas as pd
 import pytest
 
 from fem import simulate
-from validation.convergence.robustness import FOUND, OUTLINES, TABLE, VARIED, robustness_table
+from validation.convergence.robustness import (
+    BLOCKS,
+    FOUND,
+    OUTLINES,
+    TABLE,
+    TABLES,
+    VARIED,
+    VISCOELASTIC,
+    robustness_table,
+)
 from validation.studies import cases_of
 
 COARSE = {"block.mesh": "coarse"}
@@ -118,3 +127,25 @@ def test_sipes_are_counted_in_the_table_of_blocks():
         [{**varied, **dict.fromkeys(FOUND, 1.0), "block.sipes": str(row)} for row in sipes]
     )
     assert robustness_table(summary)["sipes"].tolist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize("variant, cases", [(VISCOELASTIC, 108), (BLOCKS, 48)])
+def test_tables_of_the_variants_have_every_case_and_balances_that_close(variant, cases):
+    table = pd.read_csv(TABLES[variant])
+    assert len(table) == cases
+    assert (table["status"] == "ok").sum() >= cases - 2
+    ok = table[table["status"] == "ok"]
+    assert ok["energy_error"].max() < 0.01
+    assert ok["heat_error"].max() < 1e-9
+    assert ok["largest_self_penetration"].max() <= 0.01
+
+
+def test_rubber_that_damps_its_snaps_needs_nothing_artificial():
+    table = pd.read_csv(TABLES[VISCOELASTIC])
+    assert (table["regularisation_share_with_onset"] == 0.0).all()
+
+
+def test_blocks_that_do_not_go_through_come_with_reason_and_advice():
+    table = pd.read_csv(TABLES[BLOCKS])
+    failed = table[table["status"] != "ok"]
+    assert failed[["reason", "advice"]].notna().all(axis=None)
