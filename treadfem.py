@@ -423,12 +423,9 @@ def _add_export(commands: Any) -> None:
     text = f"W{what[1:]}: mesh, rubber, road, constant friction, pressing and sliding."
     parser = commands.add_parser("export", help=what, description=text)
     _add_case_arguments(parser)
-    text = "inp: CalculiX, in ABAQUS keywords"
-    parser.add_argument("--format", choices=["inp"], default="inp", help=text)
-    text = "three dimensions: a slab W mm deep with free sides, of which the half is written"
-    parser.add_argument("--depth-mm", metavar="W", type=float, help=text)
-    text = "layers of bricks over that half; with --depth-mm"
-    parser.add_argument("--cells-z", metavar="N", type=int, help=text)
+    parser.add_argument("--format", choices=["inp"], default="inp", help="CalculiX")
+    parser.add_argument("--depth-mm", metavar="W", type=float, help="half of a slab W mm deep")
+    parser.add_argument("--cells-z", metavar="N", type=int, help="layers of bricks over that half")
     _add_output(parser, "FILE", "file of the deck (default: CASE.inp, here)")
     parser.set_defaults(command=_export)
 
@@ -441,8 +438,7 @@ def _export(arguments: argparse.Namespace) -> int:
     path = chosen_output(arguments.output, Path(f"{Path(arguments.case).stem}.inp"))
     check_output_file(path)
     if not path.parent.is_dir():
-        found = f"no folder {path.parent}"
-        raise CaseError(str(path), "-o", found, "a file in a folder")
+        raise CaseError(str(path), "-o", f"no folder {path.parent}", "a file in a folder")
     write_deck(case, path, DeckOptions(layers=layers))
     if remark := friction_remark(case):
         print(f"treadfem: {remark}", file=sys.stderr)

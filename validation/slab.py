@@ -20,11 +20,20 @@ from fem.files import BAD_INPUT, write_table, write_text
 from fem.stepping import mesh_of
 from materials.arrays import FloatArray, IntArray
 from validation.analysis import with_block
-from validation.calculix.deck_event import PRESSING_TIME
-from validation.calculix.deck_mesh import Layers, half_slab
-from validation.calculix.deck_results import DatTable, deck_history, read_dat
-from validation.calculix.deck_run import CalculixError, calculix_program, run_calculix
-from validation.calculix.export_deck import DeckOptions, input_deck, normal_stiffness
+from validation.calculix import (
+    PRESSING_TIME,
+    CalculixError,
+    DatTable,
+    DeckOptions,
+    Layers,
+    calculix_program,
+    deck_history,
+    half_slab,
+    input_deck,
+    normal_stiffness,
+    read_dat,
+    run_calculix,
+)
 from validation.studies import STUDIES
 
 TABLE = Path(__file__).with_name("slab.csv")

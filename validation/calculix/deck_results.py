@@ -11,9 +11,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fem.case.case import Case
-from fem.mesh.block import BlockMesh
-from fem.stepping.model_parts import mesh_of
+from fem.case import Case
+from fem.mesh import BlockMesh
+from fem.stepping import mesh_of
 from materials.arrays import FloatArray
 from validation.calculix.deck_event import PRESSING_TIME
 from validation.calculix.deck_mesh import PLANE, Layers

@@ -25,8 +25,7 @@ from pathlib import Path
 from typing import Literal
 
 from contact.friction import CoulombFriction
-from fem.case import Case, CaseError
-from fem.case.errors import describe
+from fem.case import Case, CaseError, describe
 from fem.files import write_text
 from fem.mesh import BlockMesh
 from fem.stepping import mesh_of, sized

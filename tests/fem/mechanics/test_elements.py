@@ -10,7 +10,8 @@ from skfem import Basis, BilinearForm, ElementQuad1, ElementVector, LinearForm
 from skfem.helpers import ddot
 
 from fem.mechanics.corners import CornerBarrier
-from fem.mechanics.elements import NO_PAST, Past, Q1P0Elements, Viscosity, area_gradient
+from fem.mechanics.elements import NO_PAST, Past, Q1P0Elements, Viscosity
+from fem.mechanics.kinematics import area_gradient
 from materials import NeoHooke, Yeoh, compound
 from materials.plane_strain import cauchy_stress
 from tests.fem.small_blocks import (

@@ -14,15 +14,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.machines import ENVIRONMENT
+
 psutil = pytest.importorskip("psutil")
 
-ROOT = Path(__file__).parents[3]
-ENVIRONMENT = {
-    **os.environ,
-    "PYTHONPATH": str(ROOT),
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-}
 CASE = """
 [block]
 mesh = {cells_x = 12, cells_y = 5, smallest_x_mm = 0.8, smallest_y_mm = 0.6}
