@@ -39,7 +39,7 @@ from validation.studies import STUDIES
 TABLE = Path(__file__).with_name("slab.csv")
 PAGE = Path(__file__).parents[1] / "docs" / "verification.md"
 #: Layers of bricks over half the depth, by depth over height.
-LAYERS = {1.0: 4, 2.5: 10, 5.0: 20}
+LAYERS = {1.0: 4, 2.5: 10, 5.0: 20, 10.0: 10}
 #: Distances slid at which forces are compared; all of the bottom slips at the last one [mm].
 MOTIONS = (0.25, 0.5, 1.0, 2.0)
 FORCE, SINK, PEAK = "friction_force_N_per_mm", "platen_displacement_mm", "middle_peak_N_per_mm2"
