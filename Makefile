@@ -28,7 +28,7 @@ help:
 	@echo "make robustness  108 cases from easy to extreme, elastic and viscoelastic, and 48 blocks; rewrites their tables and docs/verification.md"
 	@echo "make convergence  to the limit of damping and steps; rewrites its tables and docs/verification.md"
 	@echo "make braking    ten contacts of an ABS event with its pictures, into $(RESULTS)/abs_braking"
-	@echo "make slip       braking at 5, 10, 20 % slip and with a locked wheel, into $(RESULTS)/slip"
+	@echo "make slip       braking at 5, 10, 20 % slip and with a locked wheel; renews validation/slip.csv and docs/slip.png"
 	@echo "make blocks     plain, chamfered and siped blocks and two in a row side by side, into $(RESULTS)/blocks"
 	@echo "make memory     slides and an ABS event with rubber that remembers; rewrites validation/memory_*.csv"
 	@echo "make slab       slabs of several depths against plane strain, needs CalculiX; rewrites validation/slab.csv and docs/verification.md"
@@ -119,6 +119,8 @@ braking: $(READY)
 slip: $(READY)
 	$(BIN)/treadfem sweep validation/studies/braking.toml -o $(RESULTS)/slip --resume
 	$(BIN)/python -m validation.braking $(RESULTS)/slip
+	cp $(RESULTS)/slip/slip.csv validation/slip.csv
+	cp $(RESULTS)/slip/slip.png docs/slip.png
 
 blocks: $(READY)
 	$(BIN)/treadfem sweep validation/studies/blocks.toml -o $(RESULTS)/blocks --resume
