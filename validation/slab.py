@@ -43,10 +43,11 @@ LAYERS = {1.0: 4, 2.5: 10, 5.0: 20, 10.0: 10}
 #: Distances slid at which forces are compared; all of the bottom slips at the last one [mm].
 MOTIONS = (0.25, 0.5, 1.0, 2.0)
 FORCE, SINK, PEAK = "friction_force_N_per_mm", "platen_displacement_mm", "middle_peak_N_per_mm2"
+LOAD = "middle_load_N_per_mm"
 #: What is compared with plane strain pressed and slid, by its name in the table.
 RATIOS = {
     "platen": SINK,
-    "middle_load": "middle_load_N_per_mm",
+    "middle_load": LOAD,
     "middle_contact_length": "contact_length_mm",
     "middle_peak": PEAK,
 }
@@ -69,8 +70,8 @@ class Run:
     def sink_at(self, middle_load: float) -> float:
         """Platen displacement at which the middle section carries a load per depth [mm]."""
         before = self.history["deck_time"].shift(fill_value=0.0)
-        pressing = self.history[before < 1.0]
-        load, sink = pressing["middle_load_N_per_mm"], pressing["platen_displacement_mm"]
+        pressing = self.history[before < PRESSING_TIME]
+        load, sink = pressing[LOAD], pressing[SINK]
         return float(np.interp(middle_load, load, sink))
 
 
@@ -132,8 +133,8 @@ def _sections(
         lowest = float((mesh.points + displacement(np.arange(n), back)[:, :2])[:, 1].min())
     middle = pressure(0)
     return {
-        "middle_load_N_per_mm": float(middle @ lengths) * (1.0 + strain),
-        "middle_peak_N_per_mm2": float(middle.max()),
+        LOAD: float(middle @ lengths) * (1.0 + strain),
+        PEAK: float(middle.max()),
         "side_peak_N_per_mm2": float(pressure(back).max()),
         "depth_strain": strain,
         "side_lowest_mm": lowest,
@@ -142,10 +143,10 @@ def _sections(
 
 def compared(case: Case, slab: Run, plane: Run) -> dict[str, float]:
     """Numbers of a slab, most of them over those of plane strain."""
-    end, load, height = MOTIONS[-1], "middle_load_N_per_mm", mesh_of(case).height
+    end, height = MOTIONS[-1], mesh_of(case).height
     ends = {"pressed": 0.0, "slid": end}
     # The load up to which both are known.
-    carried = min(plane.at(0.0, load), slab.at(0.0, load))
+    carried = min(plane.at(0.0, LOAD), slab.at(0.0, LOAD))
     return (
         {f"force_at_{at:g}_mm": _over(slab, plane, at, FORCE) for at in MOTIONS}
         | {

@@ -21,7 +21,8 @@ from validation.claims.phrases import say
 from validation.claims.statements import STATEMENTS
 from validation.drawing import COMPOUND_LOOKS
 
-_SECTIONS = {
+#: Where the computations of a section are.
+SECTIONS = {
     "2.1": section_2_1,
     "4.1": section_4_1,
     "4.2": section_4_2,
@@ -34,7 +35,7 @@ _SECTIONS = {
 def _claims() -> Iterator[Claim]:
     for section, statements in STATEMENTS.items():
         for key, table in statements.items():
-            compute = None if "unchecked" in table else getattr(_SECTIONS[section], key)
+            compute = None if "unchecked" in table else getattr(SECTIONS[section], key)
             claim = Claim(key=key, section=section, compute=compute, **table)
             claim = replace(claim, computed=say(claim.computed, {}))
             yield from _of_each_set(claim) if key == "force" else [claim]
