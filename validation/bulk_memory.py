@@ -9,6 +9,7 @@ of the bulk over the event). The branches and the softening are made up.
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -99,10 +100,8 @@ def draw_forces(results: list[Result]) -> Figure:
     for axes, speed in zip(panels, speeds, strict=False):
         for result in (r for r in results if r.case.loading.velocity_mm_per_s == speed):
             slide = result.history[result.history["sliding_distance_mm"] > 0.0]
-            axes.plot(
-                slide["sliding_distance_mm"], slide["friction_force_N_per_mm"],
-                label=rubber_of(result),
-            )  # fmt: skip
+            motion, force = slide["sliding_distance_mm"], slide["friction_force_N_per_mm"]
+            axes.plot(motion, force, **_line(result))
         axes.set_title(f"{speed:g} mm/s", loc="left", fontsize="small")
         axes.set_xlim(0.0, 15.0)
         axes.set_ylabel("force [N/mm]")
@@ -118,13 +117,19 @@ def draw_event(results: list[Result]) -> Figure:
     figure = new_figure(PAGE_WIDTH, 90.0)
     above, below = figure.subplots(2, 1, sharex=True)
     for result in results:
-        history, label = result.history, rubber_of(result)
-        above.plot(history["time_s"], history["T_max_C"], label=label)
-        below.plot(history["time_s"], history[BULK], label=label)
+        history, line = result.history, _line(result)
+        above.plot(history["time_s"], history["T_max_C"], **line)
+        below.plot(history["time_s"], history[BULK], **line)
     above.set_ylabel("T_max [°C]")
     below.set(ylabel="heat of the bulk\n[mJ/mm]", xlabel="time [s]")
     above.legend(fontsize="small")
     return figure
+
+
+def _line(result: Result) -> dict[str, Any]:
+    """Label and dashes: softening nearly hides the elastic line under its own."""
+    rubber = rubber_of(result)
+    return {"label": rubber, "linestyle": "--" if rubber == SOFTENING else "-"}
 
 
 def runs_of(directory: Path) -> list[Result]:

@@ -49,9 +49,15 @@ def run_calculix(deck: str | Path, *, timeout_s: float = 600.0) -> Path:
     results.unlink(missing_ok=True)
     try:
         done = subprocess.run(
-            [program, path.stem], cwd=path.parent, env=os.environ | {"OMP_NUM_THREADS": "1"},
-            capture_output=True, text=True, errors="replace", timeout=timeout_s, check=False,
-        )  # fmt: skip
+            [program, path.stem],
+            cwd=path.parent,
+            env=os.environ | {"OMP_NUM_THREADS": "1"},
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=timeout_s,
+            check=False,
+        )
     except subprocess.TimeoutExpired:
         raise CalculixError(f"{PROGRAM} took more than {timeout_s:g} s for {path}") from None
     path.with_suffix(".log").write_text(done.stdout + done.stderr, encoding="utf-8")
