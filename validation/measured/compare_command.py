@@ -9,9 +9,10 @@ import pandas as pd
 
 from fem.files import spreadsheet, write_text
 from validation.drawing import save
-from validation.measured.comparison import Comparison, compare, simulated_runs
+from validation.measured.comparison import Comparison, compare
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
 from validation.measured.measurements import read_measurements
+from validation.measured.simulated import simulated_runs
 
 #: Tests without a simulation that are named.
 _MOST_NAMES = 20

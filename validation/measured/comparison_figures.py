@@ -18,9 +18,10 @@ from validation.drawing import (
     new_figure,
     styled,
 )
-from validation.measured.comparison import LIMITS_K, Comparison, surface_of
+from validation.measured.comparison import LIMITS_K, Comparison
 from validation.measured.matching import matched
 from validation.measured.measurements import QUANTITIES, Measurements, Profile
+from validation.measured.simulated import surface_of
 
 _LABELS = {
     "T_max_C": "$T_{max}$ [°C]",

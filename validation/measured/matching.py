@@ -21,7 +21,7 @@ def matched(points: pd.DataFrame, runs: pd.DataFrame) -> tuple[IndexArray, Index
     """Positions of the tests (k,) and of their simulations (k,), test by test.
 
     Of each variant it is the simulation nearest in contact pressure. What a test does not state
-    (empty or NaN) excludes nothing.
+    (empty or NaN) excludes nothing, but of several blocks it is a test of all together.
     """
     tests, found = [np.empty(0, dtype=np.intp)], [np.empty(0, dtype=np.intp)]
     for first in range(0, len(points), _BATCH):
@@ -43,6 +43,8 @@ def _fitting(points: pd.DataFrame, runs: pd.DataFrame) -> BoolArray:
         value = points[name].to_numpy(dtype=float)[:, None]
         distance = np.abs(runs[name].to_numpy(dtype=float) / value - 1.0)
         fits &= (distance <= tolerance) | np.isnan(value)
+    block = runs["block"].to_numpy(dtype=float)
+    fits &= (points["block"].to_numpy(dtype=float)[:, None] == block) | np.isnan(block)
     start = points["T_0_C"].to_numpy(dtype=float)[:, None]
     apart = np.abs(runs["T_0_C"].to_numpy(dtype=float) - start)
     fits &= apart <= START_TOLERANCE_K
@@ -56,7 +58,11 @@ def _nearest_in_pressure(fits: BoolArray, points: pd.DataFrame, runs: pd.DataFra
     """For tests with a pressure the one simulation of each variant and velocity that is nearest."""
     pressure = points[_PRESSURE].to_numpy(dtype=float)[:, None]
     with_pressure = np.isfinite(pressure[:, 0])
-    for columns in runs.reset_index().groupby(["variant", "v_mm_per_s"]).indices.values():
+    for columns in (
+        runs.reset_index()
+        .groupby(["variant", "v_mm_per_s", "block"], dropna=False)
+        .indices.values()
+    ):
         if len(columns) < 2:
             continue
         own = fits[:, columns]

@@ -7,7 +7,8 @@ Files with a column ``x_mm`` hold profiles, a row per point: ``run, x_mm, T_C``,
 the trailing to the leading corner. Others hold a row per test with at least one of ``T_max_C,
 A_T_K_mm, friction_coefficient``. Both may say under which conditions: ``p_N_per_mm2`` (mean contact
 pressure), ``mean_pressure_N_per_mm2`` (on top of the block), ``v_mm_per_s``, ``compound``, ``law``,
-and ``T_0_C``, the temperature before the sliding.
+``T_0_C``, the temperature before the sliding, and of several blocks the ``block``, counted from
+the trailing one, from whose trailing corner ``x_mm`` counts then.
 """
 
 from dataclasses import dataclass, field, replace
@@ -27,13 +28,15 @@ QUANTITIES = {"T_max_C": "°C", "A_T_K_mm": "K mm", "friction_coefficient": "-"}
 #: Temperature before the sliding where the file does not state it [deg C].
 START_C = 20.0
 
+#: `block` of a test of all blocks together.
+ALL_BLOCKS = 0
 #: Columns of numbers that a test has one value of.
 _NUMBERS = (
-    *("p_N_per_mm2", "mean_pressure_N_per_mm2", "v_mm_per_s", "T_0_C"),
+    *("p_N_per_mm2", "mean_pressure_N_per_mm2", "v_mm_per_s", "T_0_C", "block"),
     *QUANTITIES,
 )
 #: Those that must be above zero.
-_POSITIVE = ("v_mm_per_s", "friction_coefficient")
+_POSITIVE = ("v_mm_per_s", "friction_coefficient", "block")
 _WORDS = ("run", "compound", "law")
 
 
@@ -190,6 +193,7 @@ def _conditions(table: Table) -> pd.DataFrame:
     if unstated:
         table.notes.append(f"T_0_C not stated in {unstated} rows: {START_C:g} deg C assumed")
         frame["T_0_C"] = frame["T_0_C"].fillna(START_C)
+    frame["block"] = frame["block"].fillna(ALL_BLOCKS)
     frame["row"] = table.rows
     return frame
 

@@ -286,7 +286,11 @@ def test_a_simulation_that_does_not_get_to_its_end_is_named(tmp_path):
 
 @pytest.mark.slow
 def test_law_comes_back_from_simulated_blocks(tmp_path):
-    """Coarse mesh and 20 mm instead of 120 mm; each simulation takes some seconds."""
+    """Coarse mesh and 20 mm instead of 120 mm; each simulation takes some seconds.
+
+    The edge takes other branches with other kappas: 1 % less of it, and T_max is higher by 0.03 or
+    lower by 0.5 of 14 K. The law comes back as exactly as that lets it.
+    """
     case = case_of(distance_mm=20.0)
     rows = []
     for p in PRESSURES:
@@ -297,7 +301,8 @@ def test_law_comes_back_from_simulated_blocks(tmp_path):
         )
     table = pd.DataFrame(rows)
     exact = fit_partition(table, case, SimulationStore(tmp_path, 1))
-    check_recovered(exact.result, 1e-2)
+    check_recovered(exact.result, 5e-2)
+    assert np.abs(exact.discrete["fit_C"] - table["T_max_C"]).max() < 0.5
     assert exact.discrete["simulations"].max() <= 6
     assert fit_partition(table, case, SimulationStore(tmp_path, 1)).simulated == 0
 

@@ -77,14 +77,19 @@ def test_the_table_has_every_case_of_the_study(study, table):
 @pytest.mark.slow
 @pytest.mark.parametrize(("compound", "pressure", "law", "mu"), SPREAD[::2])
 def test_rows_of_the_table_are_those_of_the_program(study, table, compound, pressure, law, mu):
-    """The committed table is as old as the last `make robustness`: what it shows still holds."""
+    """The committed table is as old as the last `make robustness`: what it shows still holds.
+
+    Above a coefficient of 1 the edge folds over by snaps, and the last digits of another processor
+    choose another branch: 41.57 instead of 41.82 deg C in 876 instead of 820 iterations.
+    """
     case = chosen(study, compound, pressure, law, mu).case
     asked = {"reason": None, "friction.mu": mu, **values(compound, pressure, law, mu)}
     again = robustness_table(pd.DataFrame([{**asked, **simulate(case).summary}])).iloc[0]
     known = pd.Series(values(compound, pressure, law, mu)).rename(VARIED)
     (row,) = table[(table[known.index] == known).all(axis=1)].to_dict("records")
     assert again["status"] == row["status"] == "ok"
-    assert again["T_max_C"] == pytest.approx(row["T_max_C"], abs=0.05)
+    scatter = 0.5 if row["mu"] > 1.0 else 0.05
+    assert again["T_max_C"] == pytest.approx(row["T_max_C"], abs=scatter)
     assert again["friction_coefficient"] == pytest.approx(row["friction_coefficient"], rel=2e-3)
 
 

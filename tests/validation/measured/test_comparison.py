@@ -11,6 +11,7 @@ import pytest
 
 import treadfem
 from calibration.data.errors import DataError
+from fem import simulate
 from fem.case.case import Case
 from fem.case.errors import CaseError
 from fem.results.pyrometer import pyrometer_table
@@ -20,16 +21,11 @@ from tests.made_up_result import made_up_result
 from tests.validation.checks import assert_labelled, assert_nothing_overlaps
 from tests.validation.made_up_run import made_up_run
 from validation.measured.compare_command import write_comparison
-from validation.measured.comparison import (
-    _variants,
-    compare,
-    simulated_runs,
-    statistics,
-    surface_of,
-)
+from validation.measured.comparison import compare, statistics
 from validation.measured.comparison_figures import draw_comparison, draw_profiles
 from validation.measured.matching import matched
 from validation.measured.measurements import read_measurements
+from validation.measured.simulated import _variants, simulated_runs, surface_of
 from validation.paper import fig11, fig12
 
 ROOT = Path(__file__).parents[3]
@@ -43,6 +39,7 @@ def simulated(**changes: object) -> dict[str, object]:
         "variant": "one",
         "compound": YEOH,
         "law": "huemer",
+        "block": np.nan,
         "p_N_per_mm2": 0.3,
         "mean_pressure_N_per_mm2": 0.25,
         "v_mm_per_s": 50.0,
@@ -238,6 +235,50 @@ def test_pyrometer_of_the_simulation_is_compared_where_it_is_asked_for(results, 
     assert "those that the pyrometer" in capsys.readouterr().err
     with pytest.raises(CaseError, match=r"found a run without a pyrometer's reading"):
         simulated_runs(results, pyrometer=True)
+
+
+@pytest.fixture(scope="module")
+def two_blocks(tmp_path_factory):
+    """A short run of two blocks, the second of which reaches road that the first has heated."""
+    loading = {"mean_pressure_N_per_mm2": 0.25, "velocity_mm_per_s": 50.0, "distance_mm": 4.0}
+    mesh = {"cells_x": 16, "cells_y": 6, "smallest_x_mm": 0.5, "smallest_y_mm": 0.3}
+    block = {"mesh": mesh, "blocks": 2, "groove_mm": 3.0, "length_mm": 12.0}
+    friction = {"law": "coulomb", "mu": 0.3}
+    case = {"block": block, "loading": loading, "friction": friction}
+    folder = tmp_path_factory.mktemp("two")
+    result = simulate(Case.from_dict(case))
+    result.write(folder)
+    return result, folder
+
+
+def block_profiles(folder: Path, result: Result, path: Path, **columns: object) -> Path:
+    """Profile of the second block, counted from its own trailing corner."""
+    surface = result.surface[result.surface["X_mm"] >= 15.0]
+    table = pd.DataFrame({"run": "b", "x_mm": surface["X_mm"] - 15.0, "T_C": surface["T_C"]})
+    table.assign(v_mm_per_s=50, **columns).to_csv(path, index=False)
+    return path
+
+
+def test_a_block_of_several_is_compared_by_its_number(two_blocks, tmp_path):
+    result, folder = two_blocks
+    path = block_profiles(folder, result, tmp_path / "measured.csv", block=2)
+    runs = simulated_runs(folder)
+    assert runs["block"].tolist() == [0, 1, 2]
+    table = compare(read_measurements(path), runs).table
+    assert set(table["block"]) == {2}
+    np.testing.assert_allclose(table["error"], 0.0, atol=1e-9)
+    totals = pd.DataFrame({"friction_coefficient": [0.3], "v_mm_per_s": 50.0})
+    assert set(compare(read_measurements(totals), runs).table["block"]) == {0}
+
+
+def test_profile_beside_several_blocks_says_which(two_blocks, tmp_path):
+    result, folder = two_blocks
+    path = block_profiles(folder, result, tmp_path / "measured.csv")
+    with pytest.raises(DataError, match="column block: found nothing, and several blocks"):
+        compare(read_measurements(path), simulated_runs(folder))
+    path = block_profiles(folder, result, path, block=3)
+    with pytest.raises(DataError, match="block 1, 2 or nothing"):
+        compare(read_measurements(path), simulated_runs(folder))
 
 
 def profiles_of(result: Result, path: Path, shift: float = 0.0) -> Path:
