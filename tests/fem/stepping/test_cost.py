@@ -17,11 +17,11 @@ def case_with(**sections: object) -> Case:
 
 
 def test_estimate_of_the_introductory_example_is_near_what_it_takes():
-    """95 steps and 615 Newton iterations, some seconds on one core."""
+    """90 steps and 893 Newton iterations, 16 s on one core."""
     cost = estimated_cost(case_with())
     assert cost.elements == 2880
     assert cost.steps == pytest.approx(95, rel=0.3)
-    assert 2.0 < cost.seconds < 30.0
+    assert 8.0 < cost.seconds < 32.0
     assert 0.2 < cost.gigabytes < 1.0
 
 
