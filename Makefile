@@ -109,9 +109,9 @@ robustness: $(READY)
 	$(BIN)/python -m validation.convergence.write
 
 convergence: $(READY)
-	for study in convergence onset; do \
+	for study in convergence onset snaps; do \
 	  $(BIN)/treadfem sweep validation/studies/$$study.toml -o $(RESULTS)/$$study --resume || test $$? = 3 || exit; done
-	$(BIN)/python -m validation.convergence.write $(RESULTS)/convergence $(RESULTS)/onset
+	$(BIN)/python -m validation.convergence.write $(RESULTS)
 
 braking: $(READY)
 	$(BIN)/treadfem run examples/abs_braking.toml -o $(RESULTS)/abs_braking --resume

@@ -36,6 +36,6 @@ if TYPE_CHECKING:
     from fem.results.run_folder import FINAL, RunFolder
     from fem.results.snapshot import BlockGeometry, Snapshot
     from fem.results.surface_profile import EDGE_ZONE, excess_area, interior_peak
-    from fem.results.trust import judged
+    from fem.results.trust import LIMITS, judged
 else:
     __getattr__ = face(__name__, __file__)

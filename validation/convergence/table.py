@@ -17,7 +17,8 @@ from validation.convergence.onset import (
 )
 
 CONVERGENCE = Path(__file__).parents[1] / "convergence.csv"
-ONSET = Path(__file__).parents[1] / "onset.csv"
+ONSET = CONVERGENCE.with_name("onset.csv")
+SNAPS = CONVERGENCE.with_name("snaps.csv")
 #: Columns of the forces at `ONSET_MM`.
 FORCES = tuple(f"force_at_{distance:g}_mm_N_per_mm" for distance in ONSET_MM)
 #: Columns of what of these is the damping's.
@@ -70,6 +71,24 @@ def onset_table(runs: list[SweptRun]) -> pd.DataFrame:
             "damping": _damping(run.study_case.case.solver),
             "full_slip_N_per_mm": full_slip(run.study_case.case),
             **_results(run),
+        }
+        for run in runs
+    ]
+    return _rounded(rows)
+
+
+def snaps_table(runs: list[SweptRun]) -> pd.DataFrame:
+    """What large snaps release and what comes of it, by the damping that carries them."""
+    rows = [
+        {
+            "compound": run.study_case.case.rubber.compound,
+            "mean_pressure_N_per_mm2": run.study_case.case.loading.mean_pressure_N_per_mm2,
+            "law": run.study_case.case.friction.law,
+            "mu": run.study_case.case.friction.constants.get("mu"),
+            "damping": _damping(run.study_case.case.solver),
+            "status": run.summary["status"],
+            "reason": run.summary.get("reason", ""),
+            **{key: run.summary[key] for key in FOUND},
         }
         for run in runs
     ]

@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pandas as pd
 
+from fem.results import LIMITS
 from validation.analysis import markdown_table
 from validation.convergence.onset import ONSET_MM
 from validation.convergence.table import DAMPING_FORCES, FORCES, PLATEN
@@ -246,6 +247,53 @@ def _verdict(found: pd.DataFrame) -> str:
 
 def _counted(found: pd.DataFrame, key: str) -> str:
     return f"{(found[key] <= ONSET_PERCENT).sum()} of {len(found)}"
+
+
+# -- large snaps -----------------------------------------------------------------------------------
+
+_SNAPPING = ["compound", "mean_pressure_N_per_mm2", "law", "mu"]
+
+
+def snaps_text(table: pd.DataFrame) -> str:
+    """Table of what large snaps release and what comes of it, and from where on it matters."""
+    dampings = sorted(table["damping"].unique())
+    rows, ranges = [], []
+    for _, runs in table.groupby(_SNAPPING, sort=False, dropna=False):
+        own = runs.sort_values("damping")
+        rows.append([_snapping(own.iloc[0]), *(_outcome(run) for _, run in own.iterrows())])
+        ended = own[own["status"] == "ok"]
+        ranges.append((ended["snap_share"].max(), ended["T_max_C"].max() - ended["T_max_C"].min()))
+    heads = ["case", *(f"damping {_factor(damping)}: snaps, T_max, force" for damping in dampings)]
+    return f"{markdown_table(heads, rows)}\n\n{_where_snaps_matter(ranges)}"
+
+
+def _snapping(run: pd.Series) -> str:
+    friction = run["law"] if np.isnan(run["mu"]) else f"{run['law']} {run['mu']:g}"
+    return f"{run['compound']}, {run['mean_pressure_N_per_mm2']:g} N/mm², {friction}"
+
+
+def _outcome(run: pd.Series) -> str:
+    if run["status"] != "ok":
+        return str(run["status"])
+    return (
+        f"{100 * run['snap_share']:.1f} %, {run['T_max_C']:.1f} °C, "
+        f"{run['friction_force_N_per_mm']:.2f} N/mm"
+    )
+
+
+def _where_snaps_matter(ranges: list[tuple[float, float]]) -> str:
+    """What damping moves T_max by below and above the limit of the trust figure."""
+    (limit,) = (limit.largest for limit in LIMITS if limit.key == "snap_share")
+    small, large = ([T for share, T in ranges if (share > limit) == high] for high in (False, True))
+    words = f"Up to a snap share of {100 * limit:g} %"
+    if small:
+        words += f" damping moves T_max by at most {max(small):.1f} K;"
+    if large:
+        words += f" beyond it by up to {max(large):.1f} K,"
+    return (
+        f"{words}\nand the share itself changes: the folded edge has many equilibria, and damping, or "
+        "the last digit\nof another processor, chooses. The summary warns of it."
+    )
 
 
 # -- robustness ------------------------------------------------------------------------------------

@@ -16,21 +16,17 @@ from validation.convergence.table import (
     PLATEN,
     convergence_table,
     onset_table,
+    snaps_table,
 )
 from validation.convergence.text import (
     convergence_text,
     onset_differences,
     onset_text,
     robustness_text,
+    snaps_text,
 )
-from validation.convergence.write import BLOCK, PAGE, block
+from validation.convergence.write import BLOCK, MADE, PAGE, block
 from validation.studies import cases_of
-
-VARIED = {
-    CONVERGENCE: ("convergence", convergence_table),
-    ONSET: ("onset", onset_table),
-}
-
 
 STOPPED = ["A_T_K_mm", "status", "reason"]
 
@@ -55,10 +51,9 @@ def made_up_table(study: str, make, changes=None) -> pd.DataFrame:
     return make([made_up(case, **(changes or {}).get(k, {})) for k, case in enumerate(cases)])
 
 
-@pytest.mark.parametrize("path", VARIED, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", MADE, ids=lambda path: path.name)
 def test_the_committed_table_has_every_run_of_its_study_in_order(path):
-    study, make = VARIED[path]
-    expected, found = made_up_table(study, make), pd.read_csv(path)
+    expected, found = made_up_table(path.stem, MADE[path]), pd.read_csv(path)
     assert found.columns.tolist() == expected.columns.tolist()
     varied = expected.columns[: expected.columns.get_loc("status")]
     pd.testing.assert_frame_equal(found[varied], expected[varied], check_dtype=False)
@@ -160,6 +155,23 @@ def test_cases_of_the_onset_are_named_by_what_sets_them_apart():
     assert len(set(names)) == len(names) == 10
     assert names[0] == "introductory example"
     assert {"Coulomb, 0.6", "6 mm high", "50 mm/s", "yeoh-bars-series-2"} <= set(names)
+
+
+def test_large_snaps_are_told_from_small_ones_at_the_limit_of_the_warning():
+    table = made_up_table("snaps", snaps_table)
+    first = table["compound"] == table["compound"].iloc[0]
+    table["snap_share"], table["T_max_C"] = 0.01, 40.0
+    high = first & (table["mu"] == 1.2) & (table["mean_pressure_N_per_mm2"] == 0.5)
+    table.loc[high, "snap_share"] = [0.05, 0.1, 0.15]
+    table.loc[high, "T_max_C"] = [38.0, 40.0, 45.0]
+    table.loc[first & (table["law"] == "huemer"), "T_max_C"] = [40.0, 40.3, 40.1]
+    table.loc[table.index[-1], ["T_max_C", "status"]] = [90.0, "not converged"]
+    text = snaps_text(table)
+    case = "yeoh-bars-series-1-load, 0.5 N/mm², coulomb 1.2"
+    assert f"| {case} | 5.0 %, 38.0 °C, 0.33 N/mm | 10.0 %, 40.0 °C" in text
+    assert (
+        "snap share of 3 % damping moves T_max by at most 0.3 K; beyond it by up to 7.0 K" in text
+    )
 
 
 def test_the_onset_of_the_introductory_example_is_that_of_its_limit():
