@@ -291,8 +291,8 @@ def _where_snaps_matter(ranges: list[tuple[float, float]]) -> str:
     if large:
         words += f" beyond it by up to {max(large):.1f} K,"
     return (
-        f"{words}\nand the share itself changes: the folded edge has many equilibria, and damping, or "
-        "the last digit\nof another processor, chooses. The summary warns of it."
+        f"{words}\nand the share itself changes: the folded edge has many equilibria, and damping, "
+        "or the last digit\nof another processor, chooses. The summary warns of it."
     )
 
 
