@@ -164,12 +164,7 @@ class Run:
 
     def _phase(self, number: int, phase: Phase) -> Outcome:
         control, tried = self._control(phase), 0.0
-        plan, before = StepPlan(step=phase.step_initial), self.distance
-        if number == self.point.phase:
-            plan, before = self.point.plan, self.point.distance
-        elif phase.touches_down:
-            fresh = self.case.loading.road == "fresh"
-            self.state = self.model.touched_down(self.state, fresh_road=fresh)
+        plan, before = self._begun(number, phase)
         while plan.at < phase.end:
             length, stop = control.trial(plan, phase.longest(plan.at), phase.end)
             attempt, left = self._attempt(phase, plan, stop)
@@ -197,17 +192,29 @@ class Run:
                 self.point = self._point(number, plan, before)
                 self._report()
                 continue
-            self.rejected += 1
-            self.log.append(
-                f"{phase.name} {plan.at:.6g}: step {length:.3g} rejected with damping "
-                f"{plan.help:.3g}, {attempt.failure.value}"
-            )
+            self._reject(phase, plan, length, attempt)
             tried = max(tried, length)
             plan = self._after_failure(control, plan, length, tried)
             if control.exhausted(plan):
                 where = f"{phase.name} {plan.at:.4g}{phase.unit}"
                 return failed(attempt.failure, attempt.detail, where)
         return Outcome(status=OK)
+
+    def _begun(self, number: int, phase: Phase) -> tuple[StepPlan, float]:
+        """First plan of a phase, or that of its point, and the distance slid before the phase."""
+        if number == self.point.phase:
+            return self.point.plan, self.point.distance
+        if phase.touches_down:
+            fresh = self.case.loading.road == "fresh"
+            self.state = self.model.touched_down(self.state, fresh_road=fresh)
+        return StepPlan(step=phase.step_initial), self.distance
+
+    def _reject(self, phase: Phase, plan: StepPlan, length: float, attempt: RejectedStep) -> None:
+        self.rejected += 1
+        self.log.append(
+            f"{phase.name} {plan.at:.6g}: step {length:.3g} rejected with damping "
+            f"{plan.help:.3g}, {attempt.failure.value}"
+        )
 
     def _control(self, phase: Phase) -> StepController:
         """Control of a phase's steps; where rubber damps the snaps itself, failed ones are cut."""
