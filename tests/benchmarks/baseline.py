@@ -1,9 +1,9 @@
 """The committed baseline: reading, comparing, and writing it anew (``make bench-update``).
 
-Counts are exact with the numpy and scipy versions that the baseline was made with. Other versions
-round differently, which may move an iteration; then a margin applies. (The kernels that OpenBLAS
-and numpy pick for a processor round differently as well, but moved no count when five of them were
-tried.) Costs are ratios to a reference in the same session, and may only be worse by a margin.
+The kernels that OpenBLAS and numpy pick for a processor round differently, which may move a count:
+one of 122 factorisations between those for Zen and for Skylake (``OPENBLAS_CORETYPE``). A margin
+covers that; other versions of numpy and scipy have a larger one. Costs are ratios to a reference in
+the same session, and may only be worse by a margin.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from tests.benchmarks.counts import RUNS, Counts, counted_run
 BASELINE = Path(__file__).with_name("baseline.json")
 #: Fraction by which a cost ratio may exceed that of the baseline.
 COST_MARGIN = 0.30
-#: Fraction by which counts may differ with other versions of numpy or scipy.
-ROUNDING_MARGIN = 0.10
+#: Fraction by which counts may differ on another processor, and with other numpy or scipy.
+PROCESSOR_MARGIN, ROUNDING_MARGIN = 0.02, 0.10
 
 AllCounts = dict[str, Counts]
 Costs = dict[str, float]
@@ -44,8 +44,8 @@ def read_baseline() -> dict[str, Any]:
 
 
 def count_margin(baseline: dict[str, Any]) -> float:
-    """Fraction by which counts may differ: none with the baseline's numpy and scipy."""
-    return 0.0 if versions() == baseline["made_with"]["versions"] else ROUNDING_MARGIN
+    """Fraction by which counts may differ, smaller with the baseline's numpy and scipy."""
+    return PROCESSOR_MARGIN if versions() == baseline["made_with"]["versions"] else ROUNDING_MARGIN
 
 
 def different_counts(expected: AllCounts, found: AllCounts, margin: float = 0.0) -> list[str]:
@@ -84,8 +84,8 @@ def made_with() -> dict[str, Any]:
         "python": platform.python_version(),
         "machine": platform.machine(),
         "processor": _processor(),
-        "counts": "exact with these versions of numpy and scipy, otherwise within "
-        f"{ROUNDING_MARGIN:.0%}",
+        "counts": f"within {PROCESSOR_MARGIN:.0%} with these versions of numpy and scipy, "
+        f"otherwise within {ROUNDING_MARGIN:.0%}",
         "costs": "CPU time in factorisations of a fixed matrix in the same session; at most "
         f"{COST_MARGIN:.0%} more",
     }
