@@ -113,12 +113,6 @@ class HeatState:
     sub_steps: int = 0
     exchange_iterations: int = 0
 
-    @property
-    def imbalance(self) -> float:
-        """Heat made minus heat found; zero up to rounding [mJ/mm]."""
-        lost = self.radiated + self.convected + self.left
-        return self.generated - self.in_block - self.in_road - lost
-
 
 @dataclass(frozen=True, kw_only=True)
 class RoadField:
