@@ -245,6 +245,7 @@ def two_blocks(tmp_path_factory):
     block = {"mesh": mesh, "blocks": 2, "groove_mm": 3.0, "length_mm": 12.0}
     friction = {"law": "coulomb", "mu": 0.3}
     case = {"block": block, "loading": loading, "friction": friction}
+    case["pyrometer"] = {"gap_mm": 5.0, "spot_mm": 2.0}
     folder = tmp_path_factory.mktemp("two")
     result = simulate(Case.from_dict(case))
     result.write(folder)
@@ -269,6 +270,19 @@ def test_a_block_of_several_is_compared_by_its_number(two_blocks, tmp_path):
     np.testing.assert_allclose(table["error"], 0.0, atol=1e-9)
     totals = pd.DataFrame({"friction_coefficient": [0.3], "v_mm_per_s": 50.0})
     assert set(compare(read_measurements(totals), runs).table["block"]) == {0}
+
+
+def test_a_pyrometer_reads_each_block_by_itself(two_blocks):
+    result, folder = two_blocks
+    runs = simulated_runs(folder, pyrometer=True).set_index("block")
+    read = result.pyrometer
+    for block, begin in ((1, 0.0), (2, 15.0)):
+        own = read[read["X_mm"].between(begin, begin + 12.0)]
+        assert runs.loc[block, "T_max_C"] <= own["T_pyrometer_C"].max() < own["T_C"].max()
+        surface = surface_of(runs.loc[block])
+        np.testing.assert_allclose(surface["X_mm"] + begin, own["X_mm"])
+        area = np.trapezoid(own["T_pyrometer_C"] - 20.0, own["X_mm"])
+        assert runs.loc[block, "A_T_K_mm"] == pytest.approx(area)
 
 
 def test_profile_beside_several_blocks_says_which(two_blocks, tmp_path):
