@@ -61,6 +61,7 @@ READING = [
         "row 1, column v_mm_per_s: found the columns p_N_per_mm2, v [m/s], mu",
     ),
     table("text", COMPARE, "T_max_C\nwarm\n", "row 2, column T_max_C: found 'warm'"),
+    table("block before the first", COMPARE, "T_max_C,block\n30,0\n", "column block", "above 0"),
     table("overflow", COMPARE, "T_max_C\n1e400\n", "row 2, column T_max_C: found '1e400'"),
     table(
         "huge text in the wrong place",

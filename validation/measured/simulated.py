@@ -68,7 +68,8 @@ def simulated_runs(directory: str | Path, *, pyrometer: bool = False) -> pd.Data
         if summary["status"] == OK:
             if pyrometer:
                 summary = _as_read(folder, summary)
-            own = [_of_run(case, folder, summary), *_of_blocks(case, folder, summary, pyrometer)]
+            whole = _of_run(case, folder, summary)
+            own = [whole, *_of_blocks(case, whole, summary, pyrometer)]
             cases += [case] * len(own)
             rows += own
     if not rows:
@@ -115,7 +116,6 @@ def _plain_name(table: Path, name: str) -> str:
 
 
 def _of_run(case: Case, folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
-    X = _surface(folder, pyrometer=False)["X_mm"]
     return {
         "case": folder.name,
         "folder": folder,
@@ -125,10 +125,17 @@ def _of_run(case: Case, folder: Path, summary: Mapping[str, Any]) -> dict[str, A
         "mean_pressure_N_per_mm2": case.loading.mean_pressure_N_per_mm2,
         "v_mm_per_s": abs(case.loading.velocity_mm_per_s),
         "T_0_C": case.heat.ambient_C,
-        "begin_mm": X.iloc[0],
-        "length_mm": X.iloc[-1] - X.iloc[0],
+        **_place(case, folder),
         **_results(summary),
     }
+
+
+def _place(case: Case, folder: Path) -> dict[str, float]:
+    """Where the bottom of a block lies; that of a mesh file stands in its results only."""
+    if case.block.file is None:
+        return {"begin_mm": 0.0, "length_mm": case.block.length_mm}
+    X = _surface(folder, pyrometer=False)["X_mm"]
+    return {"begin_mm": X.iloc[0], "length_mm": X.iloc[-1] - X.iloc[0]}
 
 
 def _results(summary: Mapping[str, Any]) -> dict[str, float]:
@@ -138,14 +145,13 @@ def _results(summary: Mapping[str, Any]) -> dict[str, float]:
 
 
 def _of_blocks(
-    case: Case, folder: Path, summary: Mapping[str, Any], pyrometer: bool
+    case: Case, whole: dict[str, Any], summary: Mapping[str, Any], pyrometer: bool
 ) -> list[dict[str, Any]]:
     """Rows of the blocks of a run with several; what its pyrometer reads is told apart by place."""
-    rows, length = [], case.block.length_mm
+    rows, pitch = [], case.block.length_mm + case.block.groove_mm
     for block in summary.get("blocks", []):
-        begin = (block["block"] - 1) * (length + case.block.groove_mm)
-        place = {"block": block["block"], "begin_mm": begin, "length_mm": length}
-        row = _of_run(case, folder, summary) | place | _results(block)
+        place = {"block": block["block"], "begin_mm": (block["block"] - 1) * pitch}
+        row = whole | place | _results(block)
         if pyrometer:
             X, T = surface_of(row | {"pyrometer": True}).to_numpy().T
             peak, area = interior_peak(X, T).T_max_C, excess_area(X, T, row["T_0_C"])
