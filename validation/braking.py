@@ -7,9 +7,7 @@ and writes `slip.csv` and `slip.png` there.
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -17,11 +15,11 @@ from matplotlib.figure import Figure
 
 from fem.files import write_table
 from fem.results import Result
+from validation.analysis import rounded, runs_in
 from validation.drawing import CURVES, PAGE_WIDTH, new_figure, save, styled
 
 #: 50 km/h [mm/s], and the time of a contact [s].
 VEHICLE, CONTACT_S = 13_900.0, 7.9e-3
-_DIGITS = 5
 #: What of a summary stands in the table.
 FOUND = (
     "status",
@@ -64,9 +62,10 @@ def contacts_of(result: Result) -> pd.DataFrame:
     return pd.DataFrame(dict(zip(names, columns, strict=True)))
 
 
-def volume_of(result: Result) -> float:
-    """Volume that wore off, per depth [mm^2]."""
-    return float(result.summary["wear_volume_mm3_per_mm"])
+def wear_depth_um(result: Result) -> float:
+    """Mean depth that wore off the bottom [um]."""
+    volume = float(result.summary["wear_volume_mm3_per_mm"])
+    return 1e3 * volume / result.case.block.length_mm
 
 
 def slip_table(results: list[Result]) -> pd.DataFrame:
@@ -74,7 +73,6 @@ def slip_table(results: list[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         contacts, summary = contacts_of(result), result.summary
-        volume, length = volume_of(result), result.case.block.length_mm
         first, last = contacts.iloc[0], contacts.iloc[-1]
         velocity = result.case.loading.velocity_mm_per_s
         rows.append(
@@ -89,20 +87,12 @@ def slip_table(results: list[Result]) -> pd.DataFrame:
                 "friction_coefficient_first": first["friction_coefficient"],
                 "friction_coefficient_last": last["friction_coefficient"],
                 "friction_work_mJ_per_mm": contacts["friction_work_mJ_per_mm"].sum(),
-                "wear_depth_um": 1e3 * volume / length,
+                "wear_depth_um": wear_depth_um(result),
                 "wear_front_share": summary["wear_front_share"],
                 **{name: summary[name] for name in FOUND},
             }
         )
-    table = pd.DataFrame(rows)
-    for column in table.select_dtypes("float"):
-        table[column] = [float(f"{value:.{_DIGITS}g}") for value in table[column]]
-    return table
-
-
-def _label(row: Mapping[Any, Any]) -> str:
-    locked = ", locked" if row["repeat"] == 1 else ""
-    return f"{row['slip_percent']:.3g} %{locked}"
+    return rounded(pd.DataFrame(rows), 5)
 
 
 @styled
@@ -110,7 +100,10 @@ def draw_slips(results: list[Result]) -> Figure:
     """Draw temperature, grip and friction work over the contacts, and the profile of wear."""
     figure = new_figure(PAGE_WIDTH, 125.0)
     (heat, grip), (work, wear) = figure.subplots(2, 2)
-    labels = [_label(row) for row in slip_table(results).to_dict("records")]
+    labels = [
+        f"{row['slip_percent']:.3g} %{', locked' if row['repeat'] == 1 else ''}"
+        for row in slip_table(results).to_dict("records")
+    ]
     for result, label, colour in zip(results, labels, CURVES, strict=False):
         contacts = contacts_of(result)
         look = {"color": colour, "marker": "o", "ms": 3.0, "label": label}
@@ -118,7 +111,7 @@ def draw_slips(results: list[Result]) -> Figure:
         grip.plot(contacts["contact"], contacts["friction_coefficient"], **look)
         work.plot(contacts["contact"], contacts["friction_work_mJ_per_mm"], **look)
         bottom = result.boundary[result.boundary["chain"] == "bottom"]
-        depth = bottom["wear_depth_um"] / (1e3 * volume_of(result) / result.case.block.length_mm)
+        depth = bottom["wear_depth_um"] / wear_depth_um(result)
         wear.plot(bottom["X_mm"], depth, color=colour, label=label)
     for axes, title, unit in (
         (heat, "Bottom at the end of a contact", "highest temperature [°C]"),
@@ -131,11 +124,11 @@ def draw_slips(results: list[Result]) -> Figure:
     wear.set(
         xlabel="$X$ from the trailing to the leading corner [mm]",
         ylabel="depth over its mean [-]",
+        xlim=(0.0, max(result.case.block.length_mm for result in results)),
         ylim=(0.0, 2.0),
         title="Wear of the bottom after all of it",
     )
     wear.legend(title="slip", loc="lower center")
-    wear.set_xlim(0.0, max(result.case.block.length_mm for result in results))
     for axes in (heat, grip, work, wear):
         axes.grid(True)
     return figure
@@ -144,8 +137,7 @@ def draw_slips(results: list[Result]) -> Figure:
 def main(directory: str) -> None:
     """Write table and picture of the runs of the study."""
     folder = Path(directory)
-    found = [Result.read(path.parent) for path in folder.glob("runs/*/summary.json")]
-    found.sort(key=lambda result: result.case.loading.velocity_mm_per_s)
+    found = sorted(runs_in(folder), key=lambda result: result.case.loading.velocity_mm_per_s)
     table = slip_table(found)
     write_table(folder / "slip.csv", table)
     save(draw_slips(found), folder / "slip.png")

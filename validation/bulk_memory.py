@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from fem.files import write_table
 from fem.results import Result, contacts_table
-from validation.analysis import force_at, shape
+from validation.analysis import force_at, rounded, runs_in, shape
 from validation.drawing import PAGE_WIDTH, new_figure, save, styled
 
 SLIDES = Path(__file__).parent / "memory_slides.csv"
@@ -67,7 +67,7 @@ def slides_table(results: list[Result]) -> pd.DataFrame:
         | {key: r.summary.get(key) for key in FOUND}
         for r in results
     ]
-    return _rounded(pd.DataFrame(rows).sort_values("velocity_mm_per_s", kind="stable"))
+    return rounded(pd.DataFrame(rows).sort_values("velocity_mm_per_s", kind="stable"), 4)
 
 
 def event_table(results: list[Result]) -> pd.DataFrame:
@@ -76,19 +76,12 @@ def event_table(results: list[Result]) -> pd.DataFrame:
     for result in results:
         made = result.history.groupby("contact")[[BULK, FRICTION]].last()
         before = made.shift(fill_value=0.0)
-        contacts = contacts_table(result.history, result.case.heat.ambient_C)
-        contacts = contacts.set_index("contact")
+        contacts = contacts_table(result.history, result.case.heat.ambient_C).set_index("contact")
         contacts[BULK] = (made - before)[BULK]
         contacts["bulk_heat_share"] = contacts[BULK] / (made - before)[FRICTION]
         contacts.insert(0, "rubber", rubber_of(result))
         parts.append(contacts.reset_index())
-    return _rounded(pd.concat(parts, ignore_index=True))
-
-
-def _rounded(table: pd.DataFrame) -> pd.DataFrame:
-    for column in table.select_dtypes("float"):
-        table[column] = [float(f"{value:.4g}") for value in table[column]]
-    return table
+    return rounded(pd.concat(parts, ignore_index=True), 4)
 
 
 @styled
@@ -103,8 +96,7 @@ def draw_forces(results: list[Result]) -> Figure:
             motion, force = slide["sliding_distance_mm"], slide["friction_force_N_per_mm"]
             axes.plot(motion, force, **_line(result))
         axes.set_title(f"{speed:g} mm/s", loc="left", fontsize="small")
-        axes.set_xlim(0.0, 15.0)
-        axes.set_ylabel("force [N/mm]")
+        axes.set(xlim=(0.0, 15.0), ylabel="force [N/mm]")
     panels[0].legend(fontsize="small")
     for axes in panels[-2:]:
         axes.set_xlabel("platen motion [mm]")
@@ -134,9 +126,8 @@ def _line(result: Result) -> dict[str, Any]:
 
 def runs_of(directory: Path) -> list[Result]:
     """Runs of a sweep's folder, elastic ones first."""
-    found = [Result.read(path.parent) for path in sorted(directory.glob("runs/*/summary.json"))]
     order = [ELASTIC, BRANCHES, SOFTENING]
-    return sorted(found, key=lambda result: order.index(rubber_of(result)))
+    return sorted(runs_in(directory), key=lambda result: order.index(rubber_of(result)))
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -18,11 +17,12 @@ from matplotlib.figure import Figure
 from fem import Case
 from fem.files import write_table
 from fem.results import Result
+from validation.analysis import force_at, runs_in
 from validation.drawing import (
     PAGE_WIDTH,
-    BlockState,
     colour_bar,
     draw_panel,
+    last_state,
     new_figure,
     save,
     stress_panel,
@@ -79,9 +79,7 @@ def blocks_table(results: dict[str, Result]) -> pd.DataFrame:
 
 def onset_stiffness(history: pd.DataFrame, motion: float = 0.5) -> float:
     """Friction force over the platen's motion at half a millimetre, a secant [N/mm per mm]."""
-    slide = history[history["sliding_distance_mm"] > 0.0]
-    distance, force = slide["sliding_distance_mm"], slide["friction_force_N_per_mm"]
-    return float(np.interp(motion, distance, force)) / motion
+    return force_at(history, motion) / motion
 
 
 @styled
@@ -90,10 +88,7 @@ def draw_states(results: dict[str, Result]) -> Figure:
     figure = new_figure(PAGE_WIDTH * 1.2, 30.0 * len(results))
     grid = figure.subplots(len(results), 2, squeeze=False, width_ratios=(1.5, 1.0))
     for (left, right), (name, result) in zip(grid, results.items(), strict=True):
-        direction = 1 if result.case.loading.velocity_mm_per_s > 0.0 else -1
-        state = BlockState(
-            geometry=result.geometry, snapshot=result.snapshots[-1], direction=direction
-        )
+        state = last_state(result)
         field = draw_panel(left, stress_panel, state, state.whole, title=name)
         assert field is not None
         colour_bar(figure, left, field, "σ$_y$ [N/mm²]", extend="both")
@@ -133,25 +128,23 @@ def _draw_pressure(axes: Axes, boundary: pd.DataFrame, name: str, colour: str) -
     for _, chain in on.groupby(["block", "chain"], sort=False):
         axes.plot(chain["x_mm"], chain["pressure_N_per_mm2"], ".-", color=colour, ms=2.0, lw=0.8)
     axes.set_title(name, loc="left", fontsize="small")
-    axes.set(ylabel="p [N/mm²]", yscale="log")
-    axes.set_ylim(0.02, 20.0)
-
-
-def _plainness(case: Case) -> tuple[int, int, float]:
-    block = case.block
-    return block.blocks, len(block.sipes), block.chamfer_leading_mm
+    axes.set(ylabel="p [N/mm²]", yscale="log", ylim=(0.02, 20.0))
 
 
 def main(directory: str) -> None:
     """Write table and pictures of the runs of a study."""
-    folders = sorted(path.parent for path in Path(directory).glob("runs/*/summary.json"))
-    found = [Result.read(folder) for folder in folders]
-    found.sort(key=lambda result: _plainness(result.case))
+    folder = Path(directory)
+
+    def ornaments(result: Result) -> tuple[int, int, float]:
+        block = result.case.block
+        return block.blocks, len(block.sipes), block.chamfer_leading_mm
+
+    found = sorted(runs_in(folder), key=ornaments)
     results = {described(result.case): result for result in found}
     table = blocks_table(results)
-    write_table(Path(directory) / "blocks.csv", table)
-    save(draw_states(results), Path(directory) / "blocks.png")
-    save(draw_curves(results), Path(directory) / "blocks_curves.png")
+    write_table(folder / "blocks.csv", table)
+    save(draw_states(results), folder / "blocks.png")
+    save(draw_curves(results), folder / "blocks_curves.png")
     print(table.to_string(index=False))
 
 

@@ -22,3 +22,4 @@ from validation.analysis.ranges import (
 )
 from validation.analysis.rubber_curves import TESTED_STRETCH
 from validation.analysis.shape import contour
+from validation.analysis.studies import rounded, runs_in

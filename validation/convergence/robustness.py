@@ -12,6 +12,7 @@ from pathlib import Path
 import pandas as pd
 
 from fem.files import write_table
+from validation.analysis import rounded
 
 TABLE = Path(__file__).parents[1] / "robustness.csv"
 #: Rubber that damps its snaps itself, on the coarse mesh (`studies/viscoelastic_block.toml`).
@@ -69,9 +70,7 @@ def robustness_table(summary: pd.DataFrame) -> pd.DataFrame:
     if blocks:
         # The summary has the text of the list.
         table["sipes"] = table["sipes"].astype(str).str.count("position_mm")
-    for column in table.select_dtypes("float"):
-        table[column] = [float(f"{value:.4g}") for value in table[column]]
-    return table
+    return rounded(table, 4)
 
 
 def main(path: str, variant: str = "") -> None:

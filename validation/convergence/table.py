@@ -1,12 +1,14 @@
 """The committed tables of the studies to the limit: a row per run, four to five digits each."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from fem.case import Solver
+from fem.case import Case, Solver
+from validation.analysis import rounded
 from validation.convergence.onset import (
     ONSET_MM,
     SweptRun,
@@ -40,85 +42,68 @@ FOUND = (
     "sliding_regime",
     "program_version",
 )
-_DIGITS = 5
 
 
 def convergence_table(runs: list[SweptRun]) -> pd.DataFrame:
     """What was varied of the introductory example, and what came out."""
-    rows = [
-        {
-            "mesh": run.study_case.case.block.mesh,
-            "damping": _damping(run.study_case.case.solver),
-            "steps_scale": run.study_case.case.solver.steps_scale,
-            "memory_mm": run.study_case.case.friction.memory_mm,
-            **_results(run),
-        }
-        for run in runs
-    ]
-    return _rounded(rows)
+    return _table(runs, ("mesh", "damping", "steps_scale", "memory_mm"))
 
 
 def onset_table(runs: list[SweptRun]) -> pd.DataFrame:
     """The onset of each case in each of its numerics, with the force of full slip."""
-    rows = [
-        {
-            "compound": run.study_case.case.rubber.compound,
-            "law": run.study_case.case.friction.law,
-            "mu": run.study_case.case.friction.constants.get("mu"),
-            "height_mm": run.study_case.case.block.height_mm,
-            "velocity_mm_per_s": run.study_case.case.loading.velocity_mm_per_s,
-            "step_mm_max": run.study_case.case.solver.step_mm_max,
-            "damping": _damping(run.study_case.case.solver),
-            "full_slip_N_per_mm": full_slip(run.study_case.case),
-            **_results(run),
-        }
-        for run in runs
-    ]
-    return _rounded(rows)
+    numerics = ("step_mm_max", "damping", "full_slip_N_per_mm")
+    return _table(runs, ("compound", "law", "mu", "height_mm", "velocity_mm_per_s", *numerics))
 
 
 def snaps_table(runs: list[SweptRun]) -> pd.DataFrame:
     """What large snaps release and what comes of it, by the damping that carries them."""
+    varied = ("compound", "mean_pressure_N_per_mm2", "law", "mu", "damping")
+    return _table(runs, varied, onset=False)
+
+
+def _table(runs: list[SweptRun], varied: tuple[str, ...], *, onset: bool = True) -> pd.DataFrame:
+    """A row per run: what was varied, how it ended, its onset, and `FOUND`."""
     rows = [
-        {
-            "compound": run.study_case.case.rubber.compound,
-            "mean_pressure_N_per_mm2": run.study_case.case.loading.mean_pressure_N_per_mm2,
-            "law": run.study_case.case.friction.law,
-            "mu": run.study_case.case.friction.constants.get("mu"),
-            "damping": _damping(run.study_case.case.solver),
-            "status": run.summary["status"],
-            "reason": run.summary.get("reason", ""),
-            **{key: run.summary[key] for key in FOUND},
-        }
+        {key: _VARIED[key](run.study_case.case) for key in varied}
+        | {"status": run.summary["status"], "reason": run.summary.get("reason", "")}
+        | (_onset(run.history) if onset else {})
+        | {key: run.summary[key] for key in FOUND}
         for run in runs
     ]
-    return _rounded(rows)
+    return rounded(pd.DataFrame(rows), 5)
 
 
-def _results(run: SweptRun) -> dict[str, Any]:
+def _onset(history: pd.DataFrame) -> dict[str, float]:
     distances = np.array(ONSET_MM)
     return {
-        "status": run.summary["status"],
-        "reason": run.summary.get("reason", ""),
-        **dict(zip(FORCES, force_at(run.history, distances), strict=True)),
-        **dict(zip(DAMPING_FORCES, damping_force_at(run.history, distances), strict=True)),
-        PLATEN: pressed_platen(run.history),
-        **{key: run.summary[key] for key in FOUND},
+        **dict(zip(FORCES, force_at(history, distances), strict=True)),
+        **dict(zip(DAMPING_FORCES, damping_force_at(history, distances), strict=True)),
+        PLATEN: pressed_platen(history),
     }
 
 
-def _damping(solver: Solver) -> float:
+def _damping(case: Case) -> float:
     """Multiple of the default damping; both distances have to be scaled alike."""
     defaults = Solver()
-    edge = solver.edge_viscous_distance_mm / defaults.edge_viscous_distance_mm
-    block = solver.viscous_distance_mm / defaults.viscous_distance_mm
+    edge = case.solver.edge_viscous_distance_mm / defaults.edge_viscous_distance_mm
+    block = case.solver.viscous_distance_mm / defaults.viscous_distance_mm
     if abs(edge - block) > 1e-3 * edge:
         raise ValueError(f"damping of the block times {block:g}, of its edge times {edge:g}")
     return edge
 
 
-def _rounded(rows: list[dict[str, Any]]) -> pd.DataFrame:
-    table = pd.DataFrame(rows)
-    for column in table.select_dtypes("float"):
-        table[column] = [float(f"{value:.{_DIGITS}g}") for value in table[column]]
-    return table
+#: What a study varies, by its column.
+_VARIED: dict[str, Callable[[Case], Any]] = {
+    "mesh": lambda case: case.block.mesh,
+    "height_mm": lambda case: case.block.height_mm,
+    "compound": lambda case: case.rubber.compound,
+    "law": lambda case: case.friction.law,
+    "mu": lambda case: case.friction.constants.get("mu"),
+    "memory_mm": lambda case: case.friction.memory_mm,
+    "mean_pressure_N_per_mm2": lambda case: case.loading.mean_pressure_N_per_mm2,
+    "velocity_mm_per_s": lambda case: case.loading.velocity_mm_per_s,
+    "step_mm_max": lambda case: case.solver.step_mm_max,
+    "steps_scale": lambda case: case.solver.steps_scale,
+    "damping": _damping,
+    "full_slip_N_per_mm": full_slip,
+}
