@@ -33,6 +33,7 @@ if TYPE_CHECKING:
         BlockState,
         colour_bar,
         draw_panel,
+        draw_stress,
         stress_panel,
         stress_scale,
         vertical_stress,

@@ -14,6 +14,8 @@ from validation.drawing.style import BLACK, GREY, ROAD_GREY
 
 #: x_min, x_max, y_min, y_max [mm].
 Window = tuple[float, float, float, float]
+#: Part of the length and of the height, at the leading bottom corner, that a detail has to show.
+EDGE_SEEN = (0.14, 0.25)
 
 
 def draw_smooth(
@@ -49,18 +51,11 @@ def cell_areas(corners: FloatArray) -> FloatArray:
 
 
 def draw_mesh(
-    axes: Axes,
-    points: FloatArray,
-    cells: IntArray,
-    *,
-    fill: str = "none",
-    linewidth: float = 0.2,
+    axes: Axes, points: FloatArray, cells: IntArray, *, fill: str = "none", linewidth: float = 0.2
 ) -> None:
     """Draw the edges of all cells."""
-    axes.add_collection(
-        PolyCollection(points[cells], facecolors=fill, edgecolors=BLACK, linewidths=linewidth),
-        autolim=False,
-    )
+    look = {"facecolors": fill, "edgecolors": BLACK, "linewidths": linewidth}
+    axes.add_collection(PolyCollection(points[cells], **look), autolim=False)
 
 
 def outline(cells: IntArray) -> IntArray:
@@ -73,71 +68,40 @@ def outline(cells: IntArray) -> IntArray:
 
 def draw_outline(axes: Axes, points: FloatArray, cells: IntArray, **style: Any) -> None:
     """Draw the contour of the block."""
-    axes.add_collection(
-        LineCollection(list(points[outline(cells)]), **({"colors": BLACK, "lw": 0.6} | style)),
-        autolim=False,
-    )
+    lines = LineCollection(list(points[outline(cells)]), **({"colors": BLACK, "lw": 0.6} | style))
+    axes.add_collection(lines, autolim=False)
 
 
 def draw_road(axes: Axes, window: Window) -> None:
     """Draw the rigid road as a hatched band below y = 0."""
     x_min, x_max, y_min, _ = window
-    axes.add_patch(
-        Rectangle(
-            (x_min, y_min),
-            x_max - x_min,
-            -y_min,
-            facecolor=ROAD_GREY,
-            edgecolor=GREY,
-            hatch="////",
-            linewidth=0.0,
-        )
-    )
+    look = {"facecolor": ROAD_GREY, "edgecolor": GREY, "hatch": "////", "linewidth": 0.0}
+    axes.add_patch(Rectangle((x_min, y_min), x_max - x_min, -y_min, **look))
     axes.plot([x_min, x_max], [0.0, 0.0], color=BLACK, lw=0.8)
 
 
 def set_window(axes: Axes, window: Window) -> None:
     """Set the limits and the 1:1 aspect."""
-    axes.set_xlim(window[0], window[1])
-    axes.set_ylim(window[2], window[3])
+    axes.set(xlim=window[:2], ylim=window[2:])
     axes.set_aspect("equal", adjustable="box")
 
 
 def mark_window(axes: Axes, window: Window, colour: str = BLACK) -> None:
     """Draw the frame of a detail that is shown elsewhere."""
     x_min, x_max, y_min, y_max = window
-    axes.add_patch(
-        Rectangle(
-            (x_min, y_min), x_max - x_min, y_max - y_min, fill=False, edgecolor=colour, lw=0.7
-        )
-    )
+    size = (x_max - x_min, y_max - y_min)
+    axes.add_patch(Rectangle((x_min, y_min), *size, fill=False, edgecolor=colour, lw=0.7))
 
 
-def front_window(
-    X: FloatArray,
-    points: FloatArray,
-    *,
-    direction: int,
-    aspect: float,
-    shares: tuple[float, float] = (0.14, 0.25),
-) -> Window:
-    """Window around the deformed front edge.
+def front_window(X: FloatArray, points: FloatArray, *, direction: int, aspect: float) -> Window:
+    """Window of a height over width around the deformed front edge.
 
-    Parameters
-    ----------
-    X : (n, 2) float array
-        Reference coordinates [mm].
-    points : (n, 2) float array
-        Current coordinates [mm].
-    direction : int
-        +1 if the block slides to the right.
-    aspect : float
-        Height over width of the window.
-    shares : tuple of float
-        Part of the length and of the height, at the leading bottom corner, that has to be seen.
+    `X` and `points` are reference and current coordinates, (n, 2) [mm]; `direction` is +1 if the
+    block slides to the right.
     """
     from_front = (X[:, 0].max() - X[:, 0]) if direction > 0 else (X[:, 0] - X[:, 0].min())
-    corner = (from_front <= shares[0] * np.ptp(X[:, 0])) & (X[:, 1] <= shares[1] * np.ptp(X[:, 1]))
+    share_x, share_y = EDGE_SEEN
+    corner = (from_front <= share_x * np.ptp(X[:, 0])) & (X[:, 1] <= share_y * np.ptp(X[:, 1]))
     low, high = points[corner].min(axis=0), points[corner].max(axis=0)
     width = max(high[0] - low[0], (high[1] - min(low[1], 0.0)) / aspect) * 1.1
     centre = 0.5 * (low[0] + high[0])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +14,7 @@ from matplotlib.figure import Figure
 
 from fem.files import replacing
 from fem.results import Result
-from materials.arrays import FloatArray
 from validation.drawing.block_drawing import (
-    Window,
     draw_outline,
     draw_road,
     draw_smooth,
@@ -33,7 +30,6 @@ from validation.drawing.style import (
     styled,
 )
 
-TIME_LABEL = "time [s]"
 #: Depth that is drawn [mm]: what some contacts heat.
 DEPTH = 2.0
 
@@ -56,7 +52,7 @@ def _draw_temperatures(axes: Axes, history: pd.DataFrame) -> None:
     time = history["time_s"]
     axes.plot(time, history["T_edge_C"], color=GREY, linewidth=0.7, label="front edge")
     axes.plot(time, history["T_max_C"], color=VERMILLION, label="bottom, without the edge")
-    axes.set(xlabel=TIME_LABEL, ylabel="highest temperature [°C]", title="Surface of the block")
+    axes.set(xlabel="time [s]", ylabel="highest temperature [°C]", title="Surface of the block")
     axes.set_xlim(0.0, time.iloc[-1])
     axes.legend(loc="upper left")
 
@@ -75,17 +71,11 @@ def _draw_depth(axes: Axes, result: Result) -> None:
     line = np.flatnonzero((np.abs(points[:, 0] - x) < 1e-9) & (points[:, 1] <= DEPTH))
     line = line[np.argsort(points[line, 1])]
     taken = result.snapshots
-    numbers = sorted({0, len(taken) // 3, max(len(taken) - 2, 0), len(taken) - 1})
-    shown = [taken[number] for number in numbers]
-    first = taken[0].time_s
-    for number, snapshot in enumerate(shown):
-        share = number / max(len(shown) - 1, 1)
-        axes.plot(
-            snapshot.temperature[line],
-            points[line, 1],
-            color=(share, 0.2, 1.0 - share),
-            label=f"{1e3 * (snapshot.time_s - first):.3g} ms",
-        )
+    shown = sorted({0, len(taken) // 3, max(len(taken) - 2, 0), len(taken) - 1})
+    for share, number in zip(np.linspace(0.0, 1.0, len(shown)), shown, strict=True):
+        label = f"{1e3 * (taken[number].time_s - taken[0].time_s):.3g} ms"
+        T, colour = taken[number].temperature[line], (share, 0.2, 1.0 - share)
+        axes.plot(T, points[line, 1], color=colour, label=label)
     axes.invert_yaxis()
     axes.set(xlabel="temperature [°C]", ylabel="depth [mm]", title="Below the middle, last contact")
     axes.legend(title="since first picture")
@@ -144,11 +134,11 @@ def write_animation(result: Result, path: Path) -> Path:
     """Write the snapshots of the last contact as an animated GIF, the block at 1:1 on its road."""
     snapshots, rest = result.snapshots, result.geometry
     places = [rest.points + snapshot.displacement for snapshot in snapshots]
-    window = _window(places)
-    norm = Normalize(
-        min(float(s.temperature.min()) for s in snapshots),
-        max(float(s.temperature.max()) for s in snapshots),
-    )
+    (x_min, y_min), (x_max, y_max) = np.min(places, axis=(0, 1)), np.max(places, axis=(0, 1))
+    # With a strip of road below.
+    window = (x_min - 1.0, x_max + 1.0, min(y_min, 0.0) - 1.0, y_max + 0.5)
+    temperatures = np.concatenate([snapshot.temperature for snapshot in snapshots])
+    norm = Normalize(temperatures.min(), temperatures.max())
     figure = new_figure(PAGE_WIDTH, 85.0)
     axes = figure.subplots()
     colours = ScalarMappable(norm=norm, cmap=TEMPERATURE_MAP)
@@ -169,10 +159,3 @@ def write_animation(result: Result, path: Path) -> Path:
     with replacing(path) as temporary:
         film.save(temporary, writer=PillowWriter(fps=5), dpi=90)
     return path
-
-
-def _window(places: Sequence[FloatArray]) -> Window:
-    """Window that holds all of them and a strip of road."""
-    points = np.concatenate(places)
-    (x_min, y_min), (x_max, y_max) = points.min(axis=0), points.max(axis=0)
-    return (x_min - 1.0, x_max + 1.0, min(y_min, 0.0) - 1.0, y_max + 0.5)

@@ -35,17 +35,7 @@ BEYOND_SCALE = 0.01
 
 @dataclass(frozen=True, kw_only=True)
 class BlockState:
-    """A snapshot with its mesh, ready to draw.
-
-    Attributes
-    ----------
-    geometry : BlockGeometry
-        Reference mesh.
-    snapshot : Snapshot
-        The fields.
-    direction : int
-        +1 if the block slides to the right.
-    """
+    """A snapshot with its reference mesh; `direction` is +1 if the block slides to the right."""
 
     geometry: BlockGeometry
     snapshot: Snapshot
@@ -65,9 +55,8 @@ class BlockState:
 
     def front(self, aspect: float) -> Window:
         """Window around the front edge [mm]."""
-        return front_window(
-            self.geometry.points, self.points, direction=self.direction, aspect=aspect
-        )
+        rest = self.geometry.points
+        return front_window(rest, self.points, direction=self.direction, aspect=aspect)
 
     def seen(self, window: Window) -> np.ndarray[Any, np.dtype[np.bool_]]:
         """Which elements have a corner inside a window, (ne,)."""
@@ -97,14 +86,8 @@ def temperature_panel(axes: Axes, state: BlockState, window: Window) -> ScalarMa
     axes.set_facecolor("white")
     near = (x_road[snapshot.road_cells] > window[0] - 2.0).any(axis=1)
     near &= (x_road[snapshot.road_cells] < window[1] + 2.0).any(axis=1)
-    draw_smooth(
-        axes,
-        snapshot.road_points,
-        snapshot.road_cells[near],
-        snapshot.road_temperature,
-        norm,
-        TEMPERATURE_MAP,
-    )
+    road = (snapshot.road_points, snapshot.road_cells[near], snapshot.road_temperature)
+    draw_smooth(axes, *road, norm, TEMPERATURE_MAP)
     field = draw_smooth(axes, state.points, cells, snapshot.temperature, norm, TEMPERATURE_MAP)
     draw_outline(axes, state.points, cells, colors="0.35", lw=0.4)
     axes.plot(window[:2], [0.0, 0.0], color="0.85", lw=0.5, ls=(0, (4, 3)))
@@ -113,9 +96,13 @@ def temperature_panel(axes: Axes, state: BlockState, window: Window) -> ScalarMa
 
 def stress_panel(axes: Axes, state: BlockState, window: Window) -> ScalarMappable:
     """Draw the vertical normal stress, the scale covering 98 % of what the window shows."""
+    return draw_stress(axes, state, window, stress_scale(state, window))
+
+
+def draw_stress(axes: Axes, state: BlockState, window: Window, norm: Normalize) -> ScalarMappable:
+    """Draw the vertical normal stress on a given scale."""
     cells, sigma_y = state.geometry.cells, vertical_stress(state)
     draw_road(axes, window)
-    norm = stress_scale(state, window)
     field = draw_smooth(axes, state.points, cells, sigma_y, norm, STRESS_MAP)
     draw_outline(axes, state.points, cells)
     return field

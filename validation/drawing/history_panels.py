@@ -4,17 +4,14 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
+from materials.arrays import FloatArray
 from validation.drawing.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILLION
-
-DISTANCE_LABEL = "sliding distance $g_T$ [mm]"
 
 
 def draw_friction(axes: Axes, history: pd.DataFrame) -> None:
     """Draw friction force over normal force against the sliding distance."""
     axes.plot(_distance(history), history["friction_coefficient"].abs(), color=BLUE)
-    axes.set_ylabel(r"$F_T / F_N$ [-]")
-    _finish(axes, history)
-    axes.set_ylim(bottom=0.0)
+    _finish(axes, history, r"$F_T / F_N$ [-]", from_zero=True)
 
 
 def draw_temperature(axes: Axes, history: pd.DataFrame, *, edge: bool = True) -> None:
@@ -24,8 +21,7 @@ def draw_temperature(axes: Axes, history: pd.DataFrame, *, edge: bool = True) ->
     if edge:
         axes.plot(distance, history["T_edge_C"], color=ORANGE, ls="--", label="front edge")
         axes.legend(loc="best")
-    axes.set_ylabel("$T$ [°C]")
-    _finish(axes, history)
+    _finish(axes, history, "$T$ [°C]")
 
 
 def draw_forces(axes: Axes, history: pd.DataFrame) -> None:
@@ -33,19 +29,16 @@ def draw_forces(axes: Axes, history: pd.DataFrame) -> None:
     distance = _distance(history)
     axes.plot(distance, history["normal_force_N_per_mm"], color=GREY, label="$F_N$")
     axes.plot(distance, history["friction_force_N_per_mm"].abs(), color=BLUE, label="$F_T$")
-    axes.set_ylabel("force per depth [N/mm]")
     axes.legend(loc="best", ncols=2)
-    _finish(axes, history)
-    axes.set_ylim(bottom=0.0)
+    _finish(axes, history, "force per depth [N/mm]", from_zero=True)
 
 
 def draw_contact(axes: Axes, history: pd.DataFrame) -> None:
     """Draw the mean contact pressure and, on the right, the contact length."""
     distance = _distance(history)
     axes.plot(distance, history["mean_contact_pressure_N_per_mm2"], color=BLUE)
-    axes.set_ylabel("mean contact pressure [N/mm²]", color=BLUE)
-    _finish(axes, history)
-    axes.set_ylim(bottom=0.0)
+    _finish(axes, history, "mean contact pressure [N/mm²]", from_zero=True)
+    axes.yaxis.label.set_color(BLUE)
     twin = axes.twinx()
     twin.plot(distance, history["contact_length_mm"], color=GREEN, ls="--")
     twin.set_ylabel("contact length [mm]", color=GREEN)
@@ -68,45 +61,47 @@ def draw_surface_temperature(
             textcoords="offset points",
             fontsize=7.5,
         )
-    axes.set_ylabel("$T$ [°C]")
-    _along_bottom(axes, surface)
+    _along_bottom(axes, surface, "$T$ [°C]")
 
 
 def draw_surface_traction(axes: Axes, surface: pd.DataFrame) -> None:
     """Draw contact pressure and frictional shear along the bottom surface."""
     shade_contact(axes, surface)
     axes.plot(surface["X_mm"], surface["pressure_N_per_mm2"], color=BLUE, label="$p$")
-    axes.plot(
-        surface["X_mm"], surface["shear_N_per_mm2"].abs(), color=ORANGE, ls="--", label="shear"
-    )
-    axes.set_ylabel("contact stress [N/mm²]")
+    shear = surface["shear_N_per_mm2"].abs()
+    axes.plot(surface["X_mm"], shear, color=ORANGE, ls="--", label="shear")
     axes.legend(loc="best", ncols=2)
-    _along_bottom(axes, surface)
+    _along_bottom(axes, surface, "contact stress [N/mm²]")
     axes.set_ylim(bottom=0.0)
 
 
 def shade_contact(axes: Axes, surface: pd.DataFrame) -> None:
     """Shade the stretches of the bottom surface that touch the road."""
     touching = surface["in_contact"].astype(bool).to_numpy()
-    X = surface["X_mm"].to_numpy()
-    between = 0.5 * (X[1:] + X[:-1])
-    edges = np.concatenate([X[:1], between, X[-1:]])
+    edges = edges_of(surface["X_mm"].to_numpy())
     change = np.diff(np.concatenate([[0], touching.astype(int), [0]]))
     for start, end in zip(np.flatnonzero(change > 0), np.flatnonzero(change < 0), strict=True):
         axes.axvspan(edges[start], edges[end], color=SKY, alpha=0.18, lw=0.0)
+
+
+def edges_of(X: FloatArray) -> FloatArray:
+    """Ends of the pieces of a line that belong to its nodes, (n + 1,) [mm]."""
+    return np.concatenate([X[:1], 0.5 * (X[1:] + X[:-1]), X[-1:]])
 
 
 def _distance(history: pd.DataFrame) -> pd.Series:
     return history["sliding_distance_mm"].abs()
 
 
-def _finish(axes: Axes, history: pd.DataFrame) -> None:
-    axes.set_xlabel(DISTANCE_LABEL)
+def _finish(axes: Axes, history: pd.DataFrame, label: str, *, from_zero: bool = False) -> None:
+    axes.set(xlabel="sliding distance $g_T$ [mm]", ylabel=label)
     axes.set_xlim(0.0, max(float(_distance(history).max()), 1e-9))
     axes.grid(True)
+    if from_zero:
+        axes.set_ylim(bottom=0.0)
 
 
-def _along_bottom(axes: Axes, surface: pd.DataFrame) -> None:
-    axes.set_xlabel("$X$ from the trailing to the leading corner [mm]")
+def _along_bottom(axes: Axes, surface: pd.DataFrame, label: str) -> None:
+    axes.set(xlabel="$X$ from the trailing to the leading corner [mm]", ylabel=label)
     axes.set_xlim(float(surface["X_mm"].min()), float(surface["X_mm"].max()))
     axes.grid(True)

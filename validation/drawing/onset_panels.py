@@ -9,9 +9,9 @@ from matplotlib.patches import Patch
 
 from fem.results import BottomHistory
 from materials.arrays import FloatArray, IndexArray
+from validation.drawing.history_panels import edges_of
 from validation.drawing.style import BLUE, GREY, ORANGE, PAGE_WIDTH, STRESS_MAP, new_figure, styled
 
-MOTION_LABEL = "platen motion [mm]"
 #: Share of the steady friction force at which the block slides in full, and how far behind it the
 #: picture goes: the leading edge goes on rolling under.
 FULL_SLIP, BEYOND = 0.95, 3.0
@@ -35,12 +35,13 @@ def draw_onset(history: pd.DataFrame, bottom: BottomHistory) -> Figure:
     above, middle, below = figure.subplots(3, 1, sharex=True, height_ratios=(1.0, 1.2, 1.2))
     steps = _shown_steps(history)
     _draw_force(above, history, steps)
-    _draw_status(middle, _edges_of_motion(history, steps), bottom, steps)
-    mesh = _draw_pressure(below, _edges_of_motion(history, steps), bottom, steps)
+    # From rest on: a step is drawn in the state it ended with.
+    motion = np.append(0.0, history["sliding_distance_mm"].to_numpy()[steps])
+    _draw_status(middle, motion, bottom, steps)
+    mesh = _draw_pressure(below, motion, bottom, steps)
     bar = figure.colorbar(mesh, ax=below, extend="max", pad=0.01, aspect=15)
     bar.set_label("pressure [N/mm²]")
-    below.set_xlabel(MOTION_LABEL)
-    below.set_xlim(0.0, onset_end(history))
+    below.set(xlabel="platen motion [mm]", xlim=(0.0, onset_end(history)))
     return figure
 
 
@@ -49,15 +50,6 @@ def _shown_steps(history: pd.DataFrame) -> IndexArray:
     motion = history["sliding_distance_mm"].to_numpy()
     before = np.concatenate([[0.0], motion[:-1]])
     return np.flatnonzero((motion > 0.0) & (before < onset_end(history)))
-
-
-def _edges_of_motion(history: pd.DataFrame, steps: IndexArray) -> FloatArray:
-    """Motion at the ends of the steps, from rest: a step is drawn in the state it ended with."""
-    return np.concatenate([[0.0], history["sliding_distance_mm"].to_numpy()[steps]])
-
-
-def _edges_of_nodes(X: FloatArray) -> FloatArray:
-    return np.concatenate([X[:1], 0.5 * (X[1:] + X[:-1]), X[-1:]])
 
 
 def _draw_force(axes: Axes, history: pd.DataFrame, steps: IndexArray) -> None:
@@ -73,14 +65,8 @@ def _draw_force(axes: Axes, history: pd.DataFrame, steps: IndexArray) -> None:
 
 def _draw_status(axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: IndexArray) -> None:
     colours = ListedColormap(list(STATUS_COLOURS.values()))
-    axes.pcolormesh(
-        motion,
-        _edges_of_nodes(bottom.X_mm),
-        bottom.kind[steps].T,
-        cmap=colours,
-        vmin=-0.5,
-        vmax=2.5,
-    )
+    X, kind = edges_of(bottom.X_mm), bottom.kind[steps].T
+    axes.pcolormesh(motion, X, kind, cmap=colours, vmin=-0.5, vmax=2.5)
     axes.set(ylabel="$X$ [mm]", title="Status along the bottom (0: trailing corner)")
     handles = [
         Patch(facecolor=colour, edgecolor=GREY, lw=0.5, label=name)
@@ -99,8 +85,7 @@ def _draw_pressure(
     pressed = pressure[pressure > 0.0]
     largest = 3.0 * float(np.median(pressed)) if pressed.size else 1.0
     shown = np.ma.masked_where(bottom.kind[steps] == 0, pressure)
-    mesh = axes.pcolormesh(
-        motion, _edges_of_nodes(bottom.X_mm), shown.T, cmap=STRESS_MAP, vmin=0.0, vmax=largest
-    )
+    X = edges_of(bottom.X_mm)
+    mesh = axes.pcolormesh(motion, X, shown.T, cmap=STRESS_MAP, vmin=0.0, vmax=largest)
     axes.set(ylabel="$X$ [mm]", title="Contact pressure (white: open)")
     return mesh

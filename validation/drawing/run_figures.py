@@ -6,15 +6,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from fem.results import (
-    BOTTOM_FILE,
-    HISTORY,
-    HISTORY_FILE,
-    SURFACE,
-    SURFACE_FILE,
-    BottomHistory,
     Result,
-    read_summary,
-    read_table,
 )
 from validation.drawing.event_panels import draw_event, draw_pyrometer, draw_wear, write_animation
 from validation.drawing.history_panels import (
@@ -45,21 +37,18 @@ def write_run_figures(directory: str | Path) -> list[Path]:
     list of Path
         The pictures; none for a run without an accepted step.
     """
-    directory = Path(directory)
-    history = read_table(directory / HISTORY_FILE, HISTORY)
-    surface = read_table(directory / SURFACE_FILE, SURFACE)
-    T_max = read_summary(directory)["T_max_C"]
-    figures = directory / "figures"
+    figures = Path(directory) / "figures"
+    result = Result.read(directory)
+    history, surface, bottom = result.history, result.surface, result.bottom
+    contacts = result.contacts
     paths = []
     if len(history) > 1:
         paths.append(save(draw_history(history), figures / "history.png"))
     if len(surface) > 1:
-        paths.append(save(draw_surface(surface, T_max), figures / "surface.png"))
-    if (directory / BOTTOM_FILE).is_file() and history["sliding_distance_mm"].max() > 0.0:
-        bottom = BottomHistory.read(directory / BOTTOM_FILE)
+        drawn = draw_surface(surface, result.summary["T_max_C"])
+        paths.append(save(drawn, figures / "surface.png"))
+    if bottom is not None and history["sliding_distance_mm"].max() > 0.0:
         paths.append(save(draw_onset(history, bottom), figures / "onset.png"))
-    result = Result.read(directory)
-    contacts = result.contacts
     if contacts is not None and len(contacts) and result.snapshots:
         paths.append(save(draw_event(result, contacts), figures / "event.png"))
         paths.append(write_animation(result, figures / "contact.gif"))
@@ -76,15 +65,15 @@ def write_run_figures(directory: str | Path) -> list[Path]:
 def draw_history(history: pd.DataFrame) -> Figure:
     """Draw friction, forces, temperatures and contact over the sliding distance."""
     figure = new_figure(PAGE_WIDTH, 120.0)
-    axes = figure.subplots(2, 2)
-    draw_friction(axes[0, 0], history)
-    axes[0, 0].set_title("Friction coefficient")
-    draw_forces(axes[0, 1], history)
-    axes[0, 1].set_title("Forces")
-    draw_temperature(axes[1, 0], history)
-    axes[1, 0].set_title("Temperature of the bottom surface")
-    draw_contact(axes[1, 1], history)
-    axes[1, 1].set_title("Contact")
+    panels = {
+        "Friction coefficient": draw_friction,
+        "Forces": draw_forces,
+        "Temperature of the bottom surface": draw_temperature,
+        "Contact": draw_contact,
+    }
+    for axes, (title, draw) in zip(figure.subplots(2, 2).flat, panels.items(), strict=True):
+        draw(axes, history)
+        axes.set_title(title)
     return figure
 
 

@@ -41,13 +41,8 @@ def reached(result: Result) -> str:
     """What to say beside a run that did not get to its end; nothing for one that did."""
     if result.summary["status"] == "ok":
         return ""
-    return f", stopped at {last_distance(result):.3g} mm"
-
-
-def last_distance(result: Result) -> float:
-    """Sliding distance at the last accepted step [mm]."""
-    distance = result.history["sliding_distance_mm"]
-    return float(abs(distance.iloc[-1])) if len(distance) else 0.0
+    slid = result.history["sliding_distance_mm"]
+    return f", stopped at {abs(slid.iloc[-1]) if len(slid) else 0.0:.3g} mm"
 
 
 def draw_fields(figure: Figure, rows: list[list[Axes]], state: BlockState) -> None:
