@@ -6,15 +6,15 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from fem.files import write_table
-from fem.sweeps import StudyRun, study_runs
+from fem.sweeps import StudyRun
 from validation.drawing import COMPOUND_LOOKS, PAGE_WIDTH, new_figure, reached, save, styled
 from validation.paper.fig9 import COMPOUND
-from validation.studies import cases_of
+from validation.studies import runs_of
 
 
 def make(directory: Path) -> Path:
     """Draw figure 10 from the study of compounds and write the curves beside it."""
-    runs = study_runs(cases_of("compounds"), directory)
+    runs = runs_of("compounds", directory)
     write_table(directory / "fig10.csv", profile_table(runs, {"compound": COMPOUND}))
     return save(draw(runs), directory / "fig10.png")
 
@@ -36,14 +36,10 @@ def draw(runs: list[StudyRun]) -> Figure:
     by_name = {run[COMPOUND]: run.result for run in runs}
     for name, look in COMPOUND_LOOKS.items():
         if name in by_name:
-            result = by_name[name]
-            axes.plot(
-                result.surface["X_mm"],
-                result.surface["T_C"],
-                color=look.colour,
-                ls=look.dash,
-                label=f"{look.label}: {_degrees(result.summary['T_max_C'])}{reached(result)}",
-            )
+            surface, T_max = by_name[name].surface, by_name[name].summary["T_max_C"]
+            degrees = "-" if T_max is None else f"{T_max:.1f} °C"
+            label = f"{look.label}: {degrees}{reached(by_name[name])}"
+            axes.plot(surface["X_mm"], surface["T_C"], color=look.colour, ls=look.dash, label=label)
     axes.set_xlabel("$X$ from the trailing to the leading corner [mm]")
     axes.set_ylabel("$T$ at the bottom surface [°C]")
     axes.set_xlim(0.0, max(float(run.result.surface["X_mm"].max()) for run in runs))
@@ -52,7 +48,3 @@ def draw(runs: list[StudyRun]) -> Figure:
     figure.legend(handles, labels, loc="outside lower center", ncols=2, title=title)
     axes.grid(True)
     return figure
-
-
-def _degrees(value: float | None) -> str:
-    return "-" if value is None else f"{value:.1f} °C"

@@ -8,11 +8,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fem.files import write_table
-from fem.sweeps import StudyRun, study_runs
+from fem.sweeps import StudyRun
 from validation.drawing import BLACK, COMPOUND_LOOKS, PAGE_WIDTH, new_figure, save, styled
 from validation.measured import MEASURED_MARK, Measurements, draw_measured_points
 from validation.paper.fig11 import LAW_LABELS, LAW_LOOKS
-from validation.studies import cases_of
+from validation.studies import runs_of
 
 #: Columns of the table and the case keys or summary keys they come from.
 KEYS = {
@@ -39,7 +39,7 @@ def make(directory: Path, measured: Measurements | None = None) -> Path:
 
     Measured points are drawn into the panel of their velocity.
     """
-    table = point_table(study_runs(cases_of("pressures"), directory))
+    table = point_table(runs_of("pressures", directory))
     write_table(directory / "fig12.csv", table)
     return save(draw(table, measured), directory / "fig12.png")
 
@@ -70,7 +70,10 @@ def draw(table: pd.DataFrame, measured: Measurements | None = None) -> Figure:
         for axes, velocity in zip(row, velocities, strict=True):
             _draw_points(axes, table[table["velocity_mm_per_s"] == velocity], quantity)
             draw_measured_points(axes, measured, velocity, quantity)
-            _widen(axes, SPAN_K if quantity == "T_max_C" else SPAN_SHARE * axes.get_ylim()[1])
+            low, high = axes.get_ylim()
+            short = (SPAN_K if quantity == "T_max_C" else SPAN_SHARE * high) - (high - low)
+            if short > 0.0:
+                axes.set_ylim(low - 0.5 * short, high + 0.5 * short)
             axes.grid(True)
         row[0].set_ylabel(label)
     for axes, velocity in zip(panels[0], velocities, strict=True):
@@ -82,33 +85,18 @@ def draw(table: pd.DataFrame, measured: Measurements | None = None) -> Figure:
     return figure
 
 
-def _widen(axes: Axes, span: float) -> None:
-    """Widen the vertical axis about its middle to at least a span."""
-    low, high = axes.get_ylim()
-    if high - low < span:
-        middle = 0.5 * (low + high)
-        axes.set_ylim(middle - 0.5 * span, middle + 0.5 * span)
-
-
 def _draw_points(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
     for (compound, law), points in table.groupby(["compound", "law"]):
         line = points.sort_values("mean_contact_pressure_N_per_mm2")
-        colour, dash = LAW_LOOKS[str(law)]
-        axes.plot(
-            line["mean_contact_pressure_N_per_mm2"],
-            line[quantity],
-            color=colour,
-            ls=dash,
-            lw=0.9,
-            marker=COMPOUND_LOOKS[str(compound)].marker,
-            mfc="white",
-        )
+        (colour, dash), marker = LAW_LOOKS[str(law)], COMPOUND_LOOKS[str(compound)].marker
+        look = {"color": colour, "ls": dash, "lw": 0.9, "marker": marker, "mfc": "white"}
+        axes.plot(line["mean_contact_pressure_N_per_mm2"], line[quantity], **look)
 
 
 def _legend(table: pd.DataFrame) -> list[Line2D]:
     laws = [
-        Line2D([], [], color=LAW_LOOKS[law][0], ls=LAW_LOOKS[law][1], label=LAW_LABELS[law])
-        for law in LAW_LABELS
+        Line2D([], [], color=colour, ls=dash, label=LAW_LABELS[law])
+        for law, (colour, dash) in LAW_LOOKS.items()
         if law in set(table["law"])
     ]
     compounds = [

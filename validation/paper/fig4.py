@@ -1,6 +1,7 @@
 """Figure 4: friction coefficient over sliding velocity and contact pressure, both laws."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -10,6 +11,7 @@ from matplotlib.figure import Figure
 
 from contact import FRICTION_LAWS, FrictionLaw, HuemerFriction
 from fem.files import write_table
+from materials.arrays import FloatArray
 from validation.drawing import (
     BLACK,
     CURVES,
@@ -75,34 +77,31 @@ def _draw_map(axes: Axes, table: pd.DataFrame, name: str) -> ScalarMappable:
     return field
 
 
+def _draw_laws(axes: Axes, X: FloatArray, p: Any, v: Any, *, colour: str, label: str) -> None:
+    """Draw both laws over one of pressure and velocity, Huemer's full and the other dashed."""
+    for name, dash, said in (("huemer", "-", label), ("exponential", "--", None)):
+        axes.plot(X, LAWS[name].coefficient(p, v), color=colour, ls=dash, label=said)
+
+
 def _draw_over_velocity(axes: Axes) -> None:
     v = VELOCITIES_MM_PER_S
     for p, colour in zip(SHOWN_PRESSURES, CURVES, strict=False):
-        for name, dash in (("huemer", "-"), ("exponential", "--")):
-            label = f"$p$ = {p:g} N/mm²" if name == "huemer" else None
-            axes.plot(v, LAWS[name].coefficient(p, v), color=colour, ls=dash, label=label)
+        _draw_laws(axes, v, p, v, colour=colour, label=f"$p$ = {p:g} N/mm²")
     peak = HuemerFriction().peak_velocity
     axes.axvline(peak, color=GREY, lw=0.7, ls=":")
-    axes.text(
-        peak * 0.93, 1.02, f"peak of (6): {peak:.1f} mm/s", ha="right", fontsize=7, color=GREY
-    )
-    axes.set_xscale("log")
-    axes.set_xlim(v[0], v[-1])
-    axes.set_ylim(0.6, 1.05)
+    said = f"peak of (6): {peak:.1f} mm/s"
+    axes.text(peak * 0.93, 1.02, said, ha="right", fontsize=7, color=GREY)
+    axes.set(xscale="log", xlim=(v[0], v[-1]), ylim=(0.6, 1.05), title="(c) Over the velocity")
     axes.set(xlabel="sliding velocity $v$ [mm/s]", ylabel=r"$\mu$ [-]")
     axes.legend(loc="lower right", title="full: (6), dashed: (5)")
-    axes.set_title("(c) Over the velocity")
     axes.grid(True)
 
 
 def _draw_over_pressure(axes: Axes) -> None:
     p = PRESSURES_N_PER_MM2
     for v, colour in zip(SHOWN_VELOCITIES, CURVES[3:], strict=False):
-        for name, dash in (("huemer", "-"), ("exponential", "--")):
-            label = f"$v$ = {v:g} mm/s" if name == "huemer" else None
-            axes.plot(p, LAWS[name].coefficient(p, v), color=colour, ls=dash, label=label)
-    axes.set_xlim(0.0, p[-1])
+        _draw_laws(axes, p, p, v, colour=colour, label=f"$v$ = {v:g} mm/s")
+    axes.set(xlim=(0.0, p[-1]), title="(d) Over the pressure")
     axes.set(xlabel="contact pressure $p$ [N/mm²]", ylabel=r"$\mu$ [-]")
     axes.legend(loc="upper right", title="full: (6), dashed: (5)")
-    axes.set_title("(d) Over the pressure")
     axes.grid(True)

@@ -65,22 +65,18 @@ def draw(rig: HeatingRig, record: pd.DataFrame, curves: pd.DataFrame, found: Fit
     """Draw the cross-section of the rig on the left and the curves on the right."""
     figure = new_figure(PAGE_WIDTH, 88.0)
     section, time = figure.subplots(1, 2, width_ratios=[1.0, 1.15])
-    looks = dict(zip(rig.thermocouples, zip(_colours(), MARKERS * 2, strict=False), strict=False))
-    _draw_section(section, rig, looks)
-    _draw_curves(time, record, curves, looks)
+    looks = zip((*CURVES, BLACK), MARKERS * 2, strict=False)
+    by_name = dict(zip(rig.thermocouples, looks, strict=False))
+    _draw_section(section, rig, by_name)
+    _draw_curves(time, record, curves, by_name)
     h, error = found.values[CONDUCTANCE], found.stderr[CONDUCTANCE]
     time.set_title(f"Fitted: h = {h:.0f} ± {error:.0f} W/(m² K)")
-    figure.suptitle(
+    note = (
         f"Dimensions are assumptions. Points: synthetic record made with h = {MADE_WITH:g} "
-        "W/(m² K), not measured; lines: model with the fitted h",
-        fontsize=7.0,
-        color=GREY,
+        "W/(m² K), not measured; lines: model with the fitted h"
     )
+    figure.suptitle(note, fontsize=7.0, color=GREY)
     return figure
-
-
-def _colours() -> tuple[str, ...]:
-    return (*CURVES, BLACK)
 
 
 def _draw_section(axes: Axes, rig: HeatingRig, looks: dict[str, tuple[str, str]]) -> None:
@@ -102,19 +98,12 @@ def _draw_section(axes: Axes, rig: HeatingRig, looks: dict[str, tuple[str, str]]
     for name, place in rig.thermocouples.items():
         colour, marker = looks[name]
         axes.plot(place.x_mm, place.y_mm, marker=marker, color=colour, ms=4.0, mew=0.4, mec="w")
-        axes.annotate(
-            name,
-            (place.x_mm, place.y_mm),
-            xytext=(5, 0) if place.x_mm > 0.0 else (-17, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=6.0,
-        )
+        beside = {"xytext": (5 if place.x_mm > 0.0 else -17, 0), "textcoords": "offset points"}
+        axes.annotate(name, (place.x_mm, place.y_mm), **beside, va="center", fontsize=6.0)
     axes.set_aspect("equal")
     # Only the part with the thermocouples; the asphalt goes on beyond the frame.
     depth = 1.4 * max(-place.y_mm for place in rig.thermocouples.values())
-    axes.set_xlim(-1.35 * L, 1.65 * L)
-    axes.set_ylim(-depth, top + 0.4 * rig.copper_height_mm)
+    axes.set(xlim=(-1.35 * L, 1.65 * L), ylim=(-depth, top + 0.4 * rig.copper_height_mm))
     axes.set(xlabel="$x$ [mm]", ylabel="height above the contact [mm]")
     axes.set_title(f"Rig, $p$ = {rig.pressure_N_per_mm2:g} N/mm²")
 
@@ -124,17 +113,9 @@ def _draw_curves(
 ) -> None:
     minutes, shown = curves["time_s"] / 60.0, record.iloc[::_SHOWN]
     for name, (colour, marker) in looks.items():
+        look = {"ls": "", "marker": marker, "ms": 2.8, "color": colour, "label": name}
         axes.plot(minutes, curves[f"{name}_C"], color=colour, lw=0.9)
-        axes.plot(
-            shown["time_s"] / 60.0,
-            shown[f"{name}_C"],
-            ls="",
-            marker=marker,
-            ms=2.8,
-            color=colour,
-            label=name,
-        )
-    axes.set(xlabel="time [min]", ylabel="temperature [°C]")
-    axes.set_xlim(0.0, float(minutes.max()))
+        axes.plot(shown["time_s"] / 60.0, shown[f"{name}_C"], **look)
+    axes.set(xlabel="time [min]", ylabel="temperature [°C]", xlim=(0.0, minutes.max()))
     axes.legend(loc="upper right", ncols=2)
     axes.grid(True)

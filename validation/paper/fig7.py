@@ -52,13 +52,10 @@ def draw(case: Case, mesh: BlockMesh) -> Figure:
     window = _detail_window(mesh)
     _draw_whole(whole, case, mesh, window)
     _draw_detail(detail, mesh, window)
-    for y in (window[2], window[3]):
-        from_, to = (window[1], y), (window[0], y)
-        figure.add_artist(
-            ConnectionPatch(
-                from_, to, "data", "data", axesA=whole, axesB=detail, color=GREY, lw=0.5
-            )
-        )
+    look = {"axesA": whole, "axesB": detail, "color": GREY, "lw": 0.5}
+    for y in window[2:]:
+        ends = (window[1], y), (window[0], y)
+        figure.add_artist(ConnectionPatch(*ends, "data", "data", **look))
     return figure
 
 
@@ -87,17 +84,8 @@ def _draw_whole(axes: Axes, case: Case, mesh: BlockMesh, detail: Window) -> None
 
 
 def _draw_platen(axes: Axes, L: float, H: float) -> None:
-    axes.add_patch(
-        Rectangle(
-            (0.0, H),
-            L,
-            0.07 * H,
-            facecolor="#B8B8B8",
-            edgecolor=BLACK,
-            hatch="\\\\\\\\",
-            linewidth=0.7,
-        )
-    )
+    look = {"facecolor": "#B8B8B8", "edgecolor": BLACK, "hatch": "\\\\\\\\", "linewidth": 0.7}
+    axes.add_patch(Rectangle((0.0, H), L, 0.07 * H, **look))
     axes.text(1.02 * L, 1.035 * H, "rigid\nplaten", va="center", fontsize=7)
 
 
@@ -107,31 +95,18 @@ def _draw_pressure(axes: Axes, case: Case, L: float, H: float) -> None:
         x = L * (0.5 + i) / 13
         axes.annotate("", (x, low), (x, high), arrowprops={**_THIN_ARROW, "color": BLUE})
     axes.plot([L / 26, L * 25 / 26], [high, high], color=BLUE, lw=0.8)
-    pressure = case.loading.mean_pressure_N_per_mm2
-    axes.text(
-        0.5 * L,
-        1.27 * H,
-        rf"(1)  $\bar p$ = {pressure:g} N/mm²",
-        ha="center",
-        va="bottom",
-        color=BLUE,
-    )
+    said = rf"(1)  $\bar p$ = {case.loading.mean_pressure_N_per_mm2:g} N/mm²"
+    axes.text(0.5 * L, 1.27 * H, said, ha="center", va="bottom", color=BLUE)
 
 
 def _draw_velocity(axes: Axes, case: Case, mesh: BlockMesh) -> None:
-    L, H, v = mesh.length, mesh.height, case.loading.velocity_mm_per_s
+    L, H, v = mesh.length, mesh.height, abs(case.loading.velocity_mm_per_s)
     middle = 0.5 * L
     start, end = middle - mesh.direction * 0.14 * L, middle + mesh.direction * 0.14 * L
     arrow = {**_THIN_ARROW, "lw": 2.0, "mutation_scale": 13, "color": VERMILLION}
     axes.annotate("", (end, 1.46 * H), (start, 1.46 * H), arrowprops=arrow)
-    axes.text(
-        middle,
-        1.50 * H,
-        rf"(2)  $v$ = {abs(v):g} mm/s over $g_T$ = {case.loading.distance_mm:g} mm",
-        ha="center",
-        va="bottom",
-        color=VERMILLION,
-    )
+    said = rf"(2)  $v$ = {v:g} mm/s over $g_T$ = {case.loading.distance_mm:g} mm"
+    axes.text(middle, 1.50 * H, said, ha="center", va="bottom", color=VERMILLION)
 
 
 def _draw_dimensions(axes: Axes, L: float, H: float) -> None:

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fem.files import write_table
@@ -45,13 +44,9 @@ def draw(result: Result) -> Figure:
         fontsize=9.5,
     )
     draw_fields(figure, rows[:3], state)
-    _draw_history(rows[3], result)
-    return figure
-
-
-def _draw_history(row: list[Axes], result: Result) -> None:
-    left, right = row
+    left, right = rows[3]
     draw_friction(left, result.history)
     left.set_title("(d) Friction coefficient")
     draw_temperature(right, result.history)
     right.set_title("(e) Bottom temperature")
+    return figure

@@ -10,18 +10,16 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fem.files import write_table
-from fem.sweeps import StudyRun, study_runs
+from fem.sweeps import StudyRun
 from validation.analysis import contour
 from validation.drawing import (
     BLACK,
     COMPOUND_LOOKS,
     PAGE_WIDTH,
-    STRESS_MAP,
     BlockState,
     Window,
-    draw_outline,
     draw_road,
-    draw_smooth,
+    draw_stress,
     last_state,
     new_figure,
     reached,
@@ -29,9 +27,8 @@ from validation.drawing import (
     set_window,
     stress_scale,
     styled,
-    vertical_stress,
 )
-from validation.studies import cases_of
+from validation.studies import runs_of
 
 COMPOUND = "rubber.compound"
 #: Rows of panels above the contours.
@@ -40,7 +37,7 @@ PANEL_ROWS = 3
 
 def make(directory: Path) -> Path:
     """Draw figure 9 from the study of compounds and write extremes and contours beside it."""
-    runs = study_runs(cases_of("compounds"), directory)
+    runs = runs_of("compounds", directory)
     states = by_compound(runs)
     write_table(directory / "fig9.csv", extremes_table(states))
     write_table(directory / "fig9_contours.csv", contour_table(states))
@@ -63,14 +60,13 @@ def extremes_table(states: dict[str, BlockState]) -> pd.DataFrame:
     rows = []
     for name, state in states.items():
         sigma_y = state.snapshot.cauchy_stress[:, 1]
+        moved = np.linalg.norm(state.snapshot.displacement, axis=1)
         rows.append(
             {
                 "compound": name,
                 "sigma_y_min_N_per_mm2": sigma_y.min(),
                 "sigma_y_max_N_per_mm2": sigma_y.max(),
-                "largest_displacement_mm": np.linalg.norm(
-                    state.snapshot.displacement, axis=1
-                ).max(),
+                "largest_displacement_mm": moved.max(),
             }
         )
     return pd.DataFrame(rows)
@@ -107,10 +103,7 @@ def draw(states: dict[str, BlockState], notes: dict[str, str] | None = None) -> 
 def _draw_compound(
     axes: Axes, name: str, state: BlockState, window: Window, norm: Normalize, note: str
 ) -> object:
-    cells = state.geometry.cells
-    draw_road(axes, window)
-    field = draw_smooth(axes, state.points, cells, vertical_stress(state), norm, STRESS_MAP)
-    draw_outline(axes, state.points, cells)
+    field = draw_stress(axes, state, window, norm)
     set_window(axes, window)
     sigma_y = state.snapshot.cauchy_stress[:, 1]
     axes.set_title(
@@ -127,20 +120,17 @@ def _draw_compound(
 
 def _draw_contours(axes: Axes, states: dict[str, BlockState], window: Window) -> None:
     draw_road(axes, window)
+    handles = []
     for name, state in states.items():
         look = COMPOUND_LOOKS[name]
-        axes.plot(*contour(state).T, color=look.colour, ls=look.dash, lw=1.0)
-    state = next(iter(states.values()))
+        style = {"color": look.colour, "ls": look.dash, "label": look.label}
+        axes.plot(*contour(state).T, **style, lw=1.0)
+        handles.append(Line2D([], [], **style, lw=1.2))
     X, Y = state.geometry.points.T
     box = [(X.min(), Y.max()), (X.min(), 0.0), (X.max(), 0.0), (X.max(), Y.max())]
     axes.plot(*zip(*box, strict=True), color=BLACK, lw=0.5, ls=":")
     set_window(axes, window)
-    handles = [
-        Line2D([], [], color=COMPOUND_LOOKS[n].colour, ls=COMPOUND_LOOKS[n].dash, lw=1.2)
-        for n in states
-    ]
-    labels = [COMPOUND_LOOKS[n].label for n in states]
-    axes.legend(handles, labels, loc="center", bbox_to_anchor=(0.45, 0.5), fontsize=6.5)
+    axes.legend(handles=handles, loc="center", bbox_to_anchor=(0.45, 0.5), fontsize=6.5)
     axes.set(xlabel="$x$ in the platen's frame [mm]", ylabel="$y$ [mm]")
     axes.set_title("Deformed contours (dotted: undeformed)")
 
@@ -153,7 +143,4 @@ def _common_window(states: dict[str, BlockState]) -> Window:
 
 def _common_scale(states: dict[str, BlockState]) -> Normalize:
     scales = [stress_scale(state, state.whole) for state in states.values()]
-    return Normalize(
-        min(float(scale.vmin or 0.0) for scale in scales),
-        max(float(scale.vmax or 0.0) for scale in scales),
-    )
+    return Normalize(min(scale.vmin for scale in scales), max(scale.vmax for scale in scales))

@@ -10,6 +10,7 @@ from calibration.rubber import last_full_cycle
 from materials.compounds import compound
 from validation.drawing import BLACK, COMPOUND_LOOKS, GREY
 
+MARKED = "synthetic, last full cycle"
 SYNTHETIC_NOTE = "synthetic test: made from the paper's parameters, not measured"
 
 
@@ -42,35 +43,15 @@ def draw_test(axes: Axes, test: pd.DataFrame) -> None:
         )
 
 
-def draw_sets(axes: Axes, strain_percent: tuple[float, float]) -> None:
-    """Draw the uniaxial nominal stress of the six parameter sets of Table 1."""
-    table = set_table(strain_percent)
-    strain = 100.0 * (table["stretch"] - 1.0)
-    for name, look in COMPOUND_LOOKS.items():
-        axes.plot(
-            strain,
-            table[name],
-            color=look.colour,
-            ls=look.dash,
-            lw=1.1,
-            label=look.label,
-            zorder=2,
-        )
-
-
-def draw_chosen(axes: Axes, test: pd.DataFrame) -> None:
-    """Mark every third point of the chosen cycle."""
+def draw_sets(axes: Axes, test: pd.DataFrame, strain_percent: tuple[float, float]) -> None:
+    """Draw the parameter sets of Table 1, and mark every third point of the chosen cycle."""
     shown = test[test["cycle"] == chosen_cycle(test)].iloc[::3]
-    axes.plot(
-        100.0 * (shown["stretch"] - 1.0),
-        shown["nominal_stress_N_per_mm2"],
-        ls="",
-        marker="o",
-        mfc="none",
-        color=GREY,
-        ms=3.0,
-        label="synthetic, last full cycle",
-    )
+    strain, stress = 100.0 * (shown["stretch"] - 1.0), shown["nominal_stress_N_per_mm2"]
+    axes.plot(strain, stress, "o", mfc="none", color=GREY, ms=3.0, label=MARKED)
+    table = set_table(strain_percent)
+    for name, look in COMPOUND_LOOKS.items():
+        style = {"color": look.colour, "ls": look.dash, "lw": 1.1, "zorder": 2}
+        axes.plot(100.0 * (table["stretch"] - 1.0), table[name], label=look.label, **style)
 
 
 def set_table(strain_percent: tuple[float, float], points: int = 201) -> pd.DataFrame:
@@ -95,23 +76,15 @@ def draw_row(
     cycles, sets = row
     draw_test(cycles, test)
     cycles.legend(loc="upper left")
-    draw_chosen(sets, test)
-    draw_sets(sets, strain)
+    draw_sets(sets, test, strain)
     for axes, title in zip(row, titles, strict=True):
-        axes.set_title(title)
-        _finish(axes, strain, stress)
+        axes.set(title=title, xlim=strain, ylim=stress)
+        axes.set(xlabel="nominal strain [%]", ylabel="nominal stress [N/mm²]")
+        axes.axhline(0.0, color=GREY, lw=0.5)
+        axes.axvline(0.0, color=GREY, lw=0.5)
+        axes.grid(True)
 
 
 def marked(test: pd.DataFrame) -> pd.DataFrame:
     """The test with a column that says which rows are used."""
     return test.assign(used=test["cycle"] == chosen_cycle(test))
-
-
-def _finish(axes: Axes, strain: tuple[float, float], stress: tuple[float, float]) -> None:
-    """Set limits, labels and grid."""
-    axes.set_xlim(*strain)
-    axes.set_ylim(*stress)
-    axes.axhline(0.0, color=GREY, lw=0.5)
-    axes.axvline(0.0, color=GREY, lw=0.5)
-    axes.set(xlabel="nominal strain [%]", ylabel="nominal stress [N/mm²]")
-    axes.grid(True)

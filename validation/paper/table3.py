@@ -7,23 +7,13 @@ import pandas as pd
 from fem.files import write_table, write_text
 from validation.paper.introductory import introductory_case
 
-#: Row of the paper, unit, section and key for rubber, section and key for asphalt.
+#: Row of the paper, unit, section and key of a case; asphalt has the keys of rubber.
 _ROWS = (
-    ("d1", "-", ("friction", "d1"), None),
-    ("d2", "K", ("friction", "d2_K"), None),
-    ("density", "kg/m^3", ("rubber", "density_kg_per_m3"), ("road", "density_kg_per_m3")),
-    (
-        "conductivity",
-        "W/(m K)",
-        ("rubber", "conductivity_W_per_mK"),
-        ("road", "conductivity_W_per_mK"),
-    ),
-    (
-        "specific heat",
-        "kJ/(kg K)",
-        ("rubber", "specific_heat_kJ_per_kgK"),
-        ("road", "specific_heat_kJ_per_kgK"),
-    ),
+    ("d1", "-", "friction", "d1"),
+    ("d2", "K", "friction", "d2_K"),
+    ("density", "kg/m^3", "rubber", "density_kg_per_m3"),
+    ("conductivity", "W/(m K)", "rubber", "conductivity_W_per_mK"),
+    ("specific heat", "kJ/(kg K)", "rubber", "specific_heat_kJ_per_kgK"),
 )
 
 
@@ -44,9 +34,9 @@ def thermal_table() -> pd.DataFrame:
             {
                 "parameter": name,
                 "unit": unit,
-                "rubber": case[rubber[0]][rubber[1]],
-                "asphalt": None if asphalt is None else case[asphalt[0]][asphalt[1]],
+                "rubber": case[section][key],
+                "asphalt": case["road"][key] if section == "rubber" else None,
             }
-            for name, unit, rubber, asphalt in _ROWS
+            for name, unit, section, key in _ROWS
         ]
     )
