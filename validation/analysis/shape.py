@@ -1,11 +1,13 @@
 """Quantities of a run's last state that say how the block is deformed and stressed."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
 from fem.results import EDGE_ZONE, Result
 from materials.arrays import FloatArray
+from validation.analysis.ranges import number
 from validation.drawing import BlockState, last_state
 
 #: Height above the road up to which a point of the surface counts as touching it [mm].
@@ -42,22 +44,13 @@ def amount_of_shear(result: Result) -> float:
     return float(np.trapezoid(u_x, X[bottom]) / np.ptp(X) / np.ptp(Y))
 
 
-def front_face_nodes(state: BlockState) -> np.ndarray:
-    """Nodes of the leading face above the corner, from the bottom."""
-    X, Y = state.geometry.points.T
-    leading = X.max() if state.direction > 0 else X.min()
-    nodes = np.flatnonzero(np.isclose(X, leading) & ~np.isclose(Y, Y.min()))
-    return np.asarray(nodes[np.argsort(Y[nodes])])
-
-
 def rolled_length(result: Result) -> float:
     """Length of the leading face, undeformed, that lies on the road [mm]."""
     state = last_state(result)
-    on_road = state.points[:, 1] <= TOUCHING_MM
-    nodes = front_face_nodes(state)
-    touching = nodes[on_road[nodes]]
-    Y = state.geometry.points[:, 1]
-    return float(Y[touching].max() - Y.min()) if touching.size else 0.0
+    X, Y = state.geometry.points.T
+    face = np.isclose(X, X.max() if state.direction > 0 else X.min()) & ~np.isclose(Y, Y.min())
+    touching = Y[face & (state.points[:, 1] <= TOUCHING_MM)]
+    return float(touching.max() - Y.min()) if touching.size else 0.0
 
 
 def detached_length(result: Result) -> float:
@@ -112,6 +105,14 @@ def _places(result: Result) -> FloatArray:
     if state.direction < 0:
         place[:, 0] = 1.0 - place[:, 0]
     return np.asarray(place)
+
+
+#: What of a block a change may move, by the words for it.
+BEARING: dict[str, Callable[[Result], float]] = {
+    "friction force": lambda result: number(result, "friction_force_N_per_mm"),
+    "contact length": lambda result: number(result, "contact_length_mm"),
+    "displacement": deformation,
+}
 
 
 def largest_stretch(result: Result) -> float:

@@ -13,7 +13,7 @@ from validation.claims.evidence import Evidence, UnfinishedError
 from validation.claims.phrases import say
 from validation.claims.statements import CHANGES, LIMITS, case_keys
 
-HOLDS, DIFFERS, UNCHECKED = "holds", "differs", "cannot be checked"
+VERDICTS = HOLDS, DIFFERS, UNCHECKED = "holds", "differs", "cannot be checked"
 
 #: Numbers of the ledger's row by name, and whatever else the texts and comparisons name.
 Numbers = tuple[dict[str, float], dict[str, Any]]

@@ -68,8 +68,8 @@ class Evidence:
         """Runs of Fig. 11 by velocity [mm/s] and friction law."""
         found: dict[float, dict[str, Result]] = {}
         for run in self._study("velocities"):
-            of_velocity = found.setdefault(run["loading.velocity_mm_per_s"], {})
-            of_velocity[run["friction.law"]] = _result(run)
+            velocity, law = run["loading.velocity_mm_per_s"], run["friction.law"]
+            found.setdefault(velocity, {})[law] = _result(run)
         return dict(sorted(found.items()))
 
     @cached_property

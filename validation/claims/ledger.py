@@ -15,7 +15,7 @@ from validation.claims import (
     section_5_2,
     section_6,
 )
-from validation.claims.claim import DIFFERS, HOLDS, UNCHECKED, Claim, Finding, unchecked
+from validation.claims.claim import VERDICTS, Claim, Finding, unchecked
 from validation.claims.evidence import Evidence, UnfinishedError
 from validation.claims.phrases import say
 from validation.claims.statements import STATEMENTS
@@ -71,25 +71,14 @@ COLUMNS = (
 
 def ledger_table(evidence: Evidence, claims: tuple[Claim, ...] = CLAIMS) -> pd.DataFrame:
     """Check the claims; a row each, numbered in the order of the paper, columns `COLUMNS`."""
-    rows = [(number, claim, judged(claim, evidence)) for number, claim in enumerate(claims, 1)]
-    return pd.DataFrame(
-        [
-            (
-                number,
-                claim.section,
-                claim.says,
-                claim.computed,
-                finding.ours,
-                "; ".join(f"{name} = {value:.6g}" for name, value in finding.values.items()),
-                finding.criterion,
-                finding.verdict,
-                finding.explanation,
-                finding.experiment,
-            )
-            for number, claim, finding in rows
-        ],
-        columns=list(COLUMNS),
-    )
+    rows = []
+    for number, claim in enumerate(claims, 1):
+        finding = judged(claim, evidence)
+        values = "; ".join(f"{name} = {value:.6g}" for name, value in finding.values.items())
+        stated = (number, claim.section, claim.says, claim.computed)
+        found = (finding.ours, values, finding.criterion, finding.verdict)
+        rows.append((*stated, *found, finding.explanation, finding.experiment))
+    return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def judged(claim: Claim, evidence: Evidence) -> Finding:
@@ -102,6 +91,4 @@ def judged(claim: Claim, evidence: Evidence) -> Finding:
 
 def counts(table: pd.DataFrame) -> dict[str, int]:
     """How many rows have each verdict."""
-    return {
-        verdict: int((table["verdict"] == verdict).sum()) for verdict in (HOLDS, DIFFERS, UNCHECKED)
-    }
+    return {verdict: int((table["verdict"] == verdict).sum()) for verdict in VERDICTS}

@@ -1,8 +1,4 @@
-"""Numbers behind the claims of section 2.1: what the material model leaves out.
-
-A function has the key of its statement in `statements.toml` and returns the numbers of the ledger,
-and what else comparisons and texts name.
-"""
+"""Numbers behind the claims of section 2.1: what the material model leaves out."""
 
 from validation.analysis import number, onset_difference, shape
 from validation.claims.claim import Numbers
@@ -24,14 +20,7 @@ def damage_may_be_left_out(evidence: Evidence) -> Numbers:
 def _without(evidence: Evidence, change: str) -> Numbers:
     """What a slide loses by leaving a memory of the rubber out."""
     elastic, remembers = evidence.introductory, evidence.changed(case_keys(change))
-    off = {
-        name: abs(of(elastic) / of(remembers) - 1.0)
-        for name, of in {
-            "friction force": lambda run: number(run, "friction_force_N_per_mm"),
-            "contact length": lambda run: number(run, "contact_length_mm"),
-            "displacement": shape.deformation,
-        }.items()
-    }
+    off = {name: abs(of(elastic) / of(remembers) - 1.0) for name, of in shape.BEARING.items()}
     off["onset"] = onset_difference(elastic.history, remembers.history, ONSET_MM)
     T = abs(number(elastic, "T_max_C") - number(remembers, "T_max_C"))
     values = {name.replace(" ", "_"): value for name, value in off.items()} | {"T_max_K": T}

@@ -1,8 +1,4 @@
-"""Numbers behind the claim of section 4.1: what a plane model leaves out.
-
-A function has the key of its statement in `statements.toml` and returns the numbers of the ledger,
-and what else comparisons and texts name.
-"""
+"""Numbers behind the claim of section 4.1: what a plane model leaves out."""
 
 import pandas as pd
 

@@ -1,8 +1,4 @@
-"""Numbers behind the claims of section 4.2: the introductory example.
-
-A function has the key of its statement in `statements.toml` and returns the numbers of the ledger,
-and what else comparisons and texts name.
-"""
+"""Numbers behind the claims of section 4.2: the introductory example."""
 
 from functools import partial
 

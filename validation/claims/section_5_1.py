@@ -1,8 +1,4 @@
-"""Numbers behind the claims of section 5.1: influence of the material.
-
-A function has the key of its statement in `statements.toml` and returns the numbers of the ledger,
-and what else comparisons and texts name.
-"""
+"""Numbers behind the claims of section 5.1: influence of the material."""
 
 from functools import partial
 from itertools import combinations
@@ -42,6 +38,7 @@ from validation.drawing import COMPOUND_LOOKS, last_state
 _MODELS = {"Yeoh": YEOH, "van der Waals": VAN_DER_WAALS}
 _OF_BARS = [*YEOH.values(), *VAN_DER_WAALS.values()]
 _FORCE = "friction_force_N_per_mm"
+secant_shear_modulus = rubber_curves.secant_shear_modulus
 
 
 def stress_fields_alike(evidence: Evidence) -> Numbers:
@@ -52,9 +49,8 @@ def stress_fields_alike(evidence: Evidence) -> Numbers:
 
 def _variation(evidence: Evidence, which: int) -> Numbers:
     found = [shape.stress_extremes(run)[which] for run in evidence.compounds.values()]
-    lowest, highest = ends(found)
     extreme = partial(_away_from_the_platen, evidence, which)
-    others = {"lowest": lowest, "highest": highest, "extreme": extreme}
+    others = {"lowest": min(found), "highest": max(found), "extreme": extreme}
     return {"relative_range": relative_range(found)}, others
 
 
@@ -78,17 +74,11 @@ tension_does_not_follow_stiffness = partial(_following, which=1)
 
 
 def van_der_waals_deforms_less(evidence: Evidence) -> Numbers:
-    models = {"van_der_waals": VAN_DER_WAALS, "yeoh": YEOH}
+    models, moved = {"van_der_waals": VAN_DER_WAALS, "yeoh": YEOH}, _moved(evidence)
     values = {
-        f"{model}_series_{n}_mm": shape.deformation(evidence.compounds[names[n]])
-        for n in (1, 2)
-        for model, names in models.items()
+        f"{model}_series_{n}_mm": moved[names[n]] for n in (1, 2) for model, names in models.items()
     }
-    against = [
-        n
-        for n in (1, 2)
-        if not values[f"van_der_waals_series_{n}_mm"] < values[f"yeoh_series_{n}_mm"]
-    ]
+    against = [n for n in (1, 2) if not moved[VAN_DER_WAALS[n]] < moved[YEOH[n]]]
     softness = {str(n): 1.0 - _stiffness_ratio(evidence, n) for n in against}
     return values, {
         "softer_or_not": "softer" if min(softness.values(), default=0.0) > 0.0 else "not_softer",
@@ -103,8 +93,9 @@ def van_der_waals_is_less_stiff(evidence: Evidence) -> Numbers:
 
 
 def series_2_deforms_more(evidence: Evidence) -> Numbers:
+    moved = _moved(evidence)
     values = {
-        f"{model}_series_{n}_mm": shape.deformation(evidence.compounds[name])
+        f"{model}_series_{n}_mm": moved[name]
         for model, names in _MODELS.items()
         for n, name in names.items()
     }
@@ -123,17 +114,13 @@ def late_upturn_is_the_reason(evidence: Evidence) -> Numbers:
         one, two = (evidence.rubbers[names[series]] for series in (1, 2))
         shear = shape.amount_of_shear(evidence.compounds[names[1]])
         found[f"{model}_a"] = two.initial_shear_modulus / one.initial_shear_modulus
-        found[f"{model}_b"] = rubber_curves.secant_shear_modulus(
-            two, shear
-        ) / rubber_curves.secant_shear_modulus(one, shear)
+        found[f"{model}_b"] = secant_shear_modulus(two, shear) / secant_shear_modulus(one, shear)
     return found, {"displacement_ratios": partial(_displacement_ratios, evidence)}
 
 
 def material_leaves_temperature_curve(evidence: Evidence) -> Numbers:
     runs = evidence.compounds
-    means = {
-        pair: warmth.mean_difference(*map(runs.__getitem__, pair)) for pair in combinations(runs, 2)
-    }
+    means = {(a, b): warmth.mean_difference(runs[a], runs[b]) for a, b in combinations(runs, 2)}
     (one, other), most = max(means.items(), key=lambda item: item[1])
     without = max(value for pair, value in means.items() if MOONEY_RIVLIN not in pair)
     follows = _area_follows_deformation(evidence)
@@ -231,11 +218,11 @@ def order_of_forces(evidence: Evidence) -> Numbers:
     mu = [float(evidence.friction_laws[1].coefficient(p, v)) for p in pressures]
     mu_changes = abs(mu[0] / mu[1] - 1.0)
     printed = names_at_ends(PAPER_N_PER_MM)
-    labels = [COMPOUND_LOOKS[name].label for name in (*at_ends, *printed)]
     return {f"friction_force_{name}_N_per_mm": value for name, value in forces.items()}, {
-        **dict(
-            zip(("lowest", "highest", "printed_lowest", "printed_highest"), labels, strict=True)
-        ),
+        "lowest": COMPOUND_LOOKS[at_ends[0]].label,
+        "highest": COMPOUND_LOOKS[at_ends[1]].label,
+        "printed_lowest": COMPOUND_LOOKS[printed[0]].label,
+        "printed_highest": COMPOUND_LOOKS[printed[1]].label,
         "smallest": forces[at_ends[0]],
         "largest": forces[at_ends[1]],
         "spread": spread,
@@ -294,9 +281,7 @@ def _stiffness_ratio(evidence: Evidence, series: int) -> float:
     """Secant shear modulus of van der Waals over that of Yeoh at the Yeoh block's shear [-]."""
     shear = shape.amount_of_shear(evidence.compounds[YEOH[series]])
     waals, yeoh = (evidence.rubbers[names[series]] for names in (VAN_DER_WAALS, YEOH))
-    return rubber_curves.secant_shear_modulus(waals, shear) / rubber_curves.secant_shear_modulus(
-        yeoh, shear
-    )
+    return secant_shear_modulus(waals, shear) / secant_shear_modulus(yeoh, shear)
 
 
 def _moduli(evidence: Evidence, names: list[str]) -> dict[str, dict[str, float]]:
@@ -304,7 +289,7 @@ def _moduli(evidence: Evidence, names: list[str]) -> dict[str, dict[str, float]]
     found = {}
     for name in names:
         shear, model = shape.amount_of_shear(evidence.compounds[name]), evidence.rubbers[name]
-        secant = rubber_curves.secant_shear_modulus(model, shear)
+        secant = secant_shear_modulus(model, shear)
         found[label(name)] = {"secant": secant, "G": model.initial_shear_modulus}
     return found
 
@@ -327,12 +312,12 @@ def _softness(evidence: Evidence, series: int) -> dict[str, Any]:
 
 def _displacement_ratios(evidence: Evidence) -> dict[str, dict[str, float]]:
     """Displacement of series 2 over series 1, and what the initial moduli alone let expect."""
-    found = {}
-    for model, names in _MODELS.items():
-        moved = [shape.deformation(evidence.compounds[names[series]]) for series in (1, 2)]
-        G = [evidence.rubbers[names[series]].initial_shear_modulus for series in (1, 2)]
-        found[model] = {"moved": moved[1] / moved[0], "G": G[0] / G[1]}
-    return found
+    moved = _moved(evidence)
+    G = {name: model.initial_shear_modulus for name, model in evidence.rubbers.items()}
+    return {
+        model: {"moved": moved[names[2]] / moved[names[1]], "G": G[names[1]] / G[names[2]]}
+        for model, names in _MODELS.items()
+    }
 
 
 def _as_interior_maximum(bars: dict[str, Result]) -> dict[str, Any]:

@@ -1,8 +1,4 @@
-"""Numbers behind the claims of section 5.2: influence of the friction law on the temperature.
-
-A function has the key of its statement in `statements.toml` and returns the numbers of the ledger,
-and what else comparisons and texts name.
-"""
+"""Numbers behind the claims of section 5.2: influence of the friction law on the temperature."""
 
 from functools import partial
 from itertools import combinations, product
@@ -35,12 +31,11 @@ def area_sees_the_shape(evidence: Evidence) -> Numbers:
 
 
 def course_is_the_same(evidence: Evidence) -> Numbers:
-    lowest = 1.0
-    for velocity in _velocities(evidence):
-        points = [point for point in evidence.pressures if point.velocity == velocity]
-        runs = [run for point in points for run in evidence.pressures[point].values()]
-        lowest = min(lowest, float(np.corrcoef(warmth.profiles(runs)).min()))
-    return {"lowest_correlation": lowest}, {}
+    runs: dict[float, list[Result]] = {}
+    for point, laws in evidence.pressures.items():
+        runs.setdefault(point.velocity, []).extend(laws.values())
+    lowest = min(np.corrcoef(warmth.profiles(own)).min() for own in runs.values())
+    return {"lowest_correlation": min(1.0, float(lowest))}, {}
 
 
 def laws_give_similar_curves(evidence: Evidence) -> Numbers:
@@ -147,12 +142,11 @@ def exponential_law_has_no_peak(evidence: Evidence) -> Numbers:
 
 def velocity_hardly_matters(evidence: Evidence) -> Numbers:
     v = np.geomspace(7.0, 300.0, 401)
-    return {
-        f"slope_{name}": float(
-            np.abs(np.gradient(np.log(law.coefficient(0.3, v)), np.log(v))).max()
-        )
+    slopes = {
+        name: np.gradient(np.log(law.coefficient(0.3, v)), np.log(v))
         for name, law in zip(LAWS, evidence.friction_laws, strict=True)
-    }, {}
+    }
+    return {f"slope_{name}": float(np.abs(slope).max()) for name, slope in slopes.items()}, {}
 
 
 def rigid_block(law: str, pressure: float) -> dict[str, Any]:
@@ -182,16 +176,13 @@ def _end_pressures(evidence: Evidence, velocity: float) -> tuple[float, float]:
 def _pairs(evidence: Evidence, velocity: float) -> dict[str, tuple[Result, Result]]:
     """Runs at the lowest and at the highest pressure, by the words for compound and law."""
     compounds = sorted({p.compound for p in evidence.pressures if p.velocity == velocity})
-    low, high = (
-        {
-            key: evidence.pressures[Point(key[0], p, velocity)][key[1]]
-            for key in product(compounds, LAWS)
-        }
-        for p in _end_pressures(evidence, velocity)
-    )
+    low, high = _end_pressures(evidence, velocity)
     return {
-        f"{COMPOUND_LOOKS[compound].label}, {law}": (low[compound, law], high[compound, law])
-        for compound, law in low
+        f"{COMPOUND_LOOKS[compound].label}, {law}": (
+            evidence.pressures[Point(compound, low, velocity)][law],
+            evidence.pressures[Point(compound, high, velocity)][law],
+        )
+        for compound, law in product(compounds, LAWS)
     }
 
 
@@ -232,11 +223,11 @@ def _at_the_hottest(evidence: Evidence, velocity: float) -> dict[str, tuple[floa
 
 def _rigid_changes(evidence: Evidence) -> dict[str, float]:
     """Change of T_max with pressure where nothing deforms [K], by law."""
-    low, high = (
-        numbers((evidence.changed(rigid_block(law, p)) for law in LAWS), "T_max_C")
-        for p in (LOW, HIGH)
-    )
-    return {law: b - a for law, a, b in zip(LAWS, low, high, strict=True)}
+    found = {}
+    for law in LAWS:
+        low, high = (evidence.changed(rigid_block(law, p)) for p in (LOW, HIGH))
+        found[law] = number(high, "T_max_C") - number(low, "T_max_C")
+    return found
 
 
 def _growth_of_heat(evidence: Evidence) -> dict[str, float]:
@@ -254,8 +245,7 @@ def _coefficients(evidence: Evidence) -> dict[str, dict[str, float]]:
     for v, laws in evidence.velocities.items():
         for name, run in laws.items():
             T, law = number(run, "T_max_C"), run.case.friction.law_object()
-            cold, warm = (
-                float(law.coefficient(0.3, v, t)) for t in (warmth.start_temperature(run), T)
-            )
+            cold = float(law.coefficient(0.3, v, warmth.start_temperature(run)))
+            warm = float(law.coefficient(0.3, v, T))
             found[f"{name} at {v:g}"] = {"cold": cold, "warm": warm, "T": T}
     return found

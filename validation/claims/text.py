@@ -4,11 +4,9 @@ import textwrap
 
 import pandas as pd
 
-from validation.claims.claim import DIFFERS, HOLDS, UNCHECKED
 from validation.claims.ledger import counts
 
 _WIDTH = 100
-_LABEL = 12
 _FIELDS = ("computed", "ours", "criterion", "explanation", "experiment")
 _HEADING = (
     "What the paper says in sections 2.1, 4.2, 5.1, 5.2 and 6, in other words, and what comes out "
@@ -27,21 +25,16 @@ def ledger_text(table: pd.DataFrame) -> str:
 
 def closing_line(table: pd.DataFrame) -> str:
     """How many claims there are, and how many of each verdict."""
-    found = counts(table)
-    return (
-        f"{len(table)} claims: {found[HOLDS]} hold, {found[DIFFERS]} differ, "
-        f"{found[UNCHECKED]} cannot be checked"
-    )
+    hold, differ, unchecked = counts(table).values()
+    return f"{len(table)} claims: {hold} hold, {differ} differ, {unchecked} cannot be checked"
 
 
 def _row(row: pd.Series) -> str:
     head = f"{row['number']:>3}  {row['claim']}  [{row['verdict']}]"
     lines = [textwrap.fill(head, _WIDTH, subsequent_indent=" " * 5)]
-    lines += [_field(name, row[name]) for name in _FIELDS if row[name] not in ("", "-")]
+    for name in _FIELDS:
+        if row[name] not in ("", "-"):
+            label = f"     {name + ':':<13}"
+            indents = {"initial_indent": label, "subsequent_indent": " " * len(label)}
+            lines.append(textwrap.fill(row[name], _WIDTH, **indents))
     return "\n".join(lines)
-
-
-def _field(name: str, text: str) -> str:
-    indent = " " * 5
-    first = f"{indent}{name + ':':<{_LABEL + 1}}"
-    return textwrap.fill(text, _WIDTH, initial_indent=first, subsequent_indent=" " * len(first))
