@@ -17,12 +17,17 @@ from fem.results import check_output_file, chosen_output, output_folder
 
 #: Figures and tables share a folder, since some are made of the same runs.
 _PAPER = "results/figures"
+_PAGE = "results/report.html"
+_Command = Callable[[argparse.Namespace], int]
 
 
 def add_arguments(commands: Any) -> None:
     """Add `figure`, `table`, `claims`, `sensitivity` and `report` to the sub-commands."""
-    _add_figure(commands)
-    _add_table(commands)
+    figure = _add_numbered(commands, "figure", _figure)
+    figure.add_argument(
+        "--measured", metavar="FILE.csv", help="measurements to draw into figures 11 and 12"
+    )
+    _add_numbered(commands, "table", _table)
     text = "Check the paper's statements against the simulation, one by one."
     _add_study(commands, "claims", "check the paper's claims", text, "ledger and its runs")
     text = "Vary what the paper leaves open, one parameter at a time."
@@ -30,44 +35,27 @@ def add_arguments(commands: Any) -> None:
     _add_report(commands)
 
 
-def _add_figure(commands: Any) -> None:
-    parser = _add_numbered(commands, "figure")
-    parser.add_argument(
-        "--measured", metavar="FILE.csv", help="measurements to draw into figures 11 and 12"
-    )
-    parser.set_defaults(command=partial(_in_folder, _figure))
-
-
-def _add_table(commands: Any) -> None:
-    parser = _add_numbered(commands, "table")
-    parser.set_defaults(command=partial(_in_folder, _table))
-
-
-def _in_folder(command: Callable[[argparse.Namespace], int], arguments: argparse.Namespace) -> int:
+def _in_folder(command: _Command, arguments: argparse.Namespace) -> int:
     """Execute a command while its folder is nobody else's."""
     folder = chosen_output(arguments.output, Path(_PAPER))
     with output_folder(folder, folders=("made", "runs")):
         return command(arguments)
 
 
-def _add_numbered(commands: Any, what: str) -> argparse.ArgumentParser:
+def _add_numbered(commands: Any, what: str, command: _Command) -> argparse.ArgumentParser:
     parser: argparse.ArgumentParser = commands.add_parser(
         what, help=f"make a {what} of the paper", description=f"Make a {what} of the paper."
     )
     parser.add_argument("number", metavar="N|all", help=f"number of the {what}, or all")
-    _add_folder(parser, f"{what}s")
+    _add_folder(parser, f"{what}s", command)
     return parser
 
 
-def _add_folder(parser: argparse.ArgumentParser, what: str) -> None:
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        default=_PAPER,
-        help=f"folder of the {what} (default: {_PAPER})",
-    )
+def _add_folder(parser: argparse.ArgumentParser, what: str, command: _Command) -> None:
+    text = f"folder of the {what} (default: {_PAPER})"
+    parser.add_argument("-o", "--output", metavar="DIR", default=_PAPER, help=text)
     parser.add_argument("--again", action="store_true", help="make what is up to date, too")
+    parser.set_defaults(command=partial(_in_folder, command))
 
 
 def _figure(arguments: argparse.Namespace) -> int:
@@ -85,12 +73,8 @@ def _figure(arguments: argparse.Namespace) -> int:
             print(f"treadfem: {error}", file=sys.stderr)
             return BAD_INPUT
         if not set(numbers) & set(MEASURABLE):
-            raise CaseError(
-                "figure",
-                "--measured",
-                f"figure {arguments.number}",
-                "a figure that shows measurements: 11, 12 or all",
-            )
+            expected = "a figure that shows measurements: 11, 12 or all"
+            raise CaseError("figure", "--measured", f"figure {arguments.number}", expected)
     for number in numbers:
         make = partial(make_figure, number, arguments.output, measured)
         own_inputs = inputs if number in MEASURABLE else []
@@ -124,8 +108,7 @@ def _numbers(what: str, arguments: argparse.Namespace, known: list[int]) -> list
 def _add_study(commands: Any, name: str, words: str, description: str, folder: str) -> None:
     """A command that writes a table and a text, which it shows."""
     parser = commands.add_parser(name, help=words, description=description)
-    _add_folder(parser, folder)
-    parser.set_defaults(command=partial(_in_folder, partial(_study, name)))
+    _add_folder(parser, folder, partial(_study, name))
 
 
 def _study(name: str, arguments: argparse.Namespace) -> int:
@@ -161,19 +144,10 @@ def _made(
 def _add_report(commands: Any) -> None:
     text = "Put all figures, tables and claims that are made into one HTML page."
     parser = commands.add_parser("report", help="one page with everything", description=text)
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE.html",
-        default="results/report.html",
-        help="the page (default: results/report.html)",
-    )
-    parser.add_argument(
-        "--figures",
-        metavar="DIR",
-        default=_PAPER,
-        help=f"folder of figures, tables, claims and sensitivity (default: {_PAPER})",
-    )
+    text = f"the page (default: {_PAGE})"
+    parser.add_argument("-o", "--output", metavar="FILE.html", default=_PAGE, help=text)
+    text = f"folder of figures, tables, claims and sensitivity (default: {_PAPER})"
+    parser.add_argument("--figures", metavar="DIR", default=_PAPER, help=text)
     parser.set_defaults(command=_report)
 
 
@@ -181,7 +155,7 @@ def _report(arguments: argparse.Namespace) -> int:
     from validation.report import write_report
 
     figures = Path(arguments.figures)
-    path = chosen_output(arguments.output, Path("results/report.html"))
+    path = chosen_output(arguments.output, Path(_PAGE))
     if not figures.is_dir():
         raise CaseError(str(figures), "--figures", "no such folder", "what make figures made")
     check_output_file(path)

@@ -20,6 +20,6 @@ from validation.analysis.ranges import (
     rank_correlation,
     relative_range,
 )
-from validation.analysis.rubber_curves import TESTED_STRETCH
+from validation.analysis.rubber_curves import TESTED_STRETCH, secant_shear_modulus
 from validation.analysis.shape import contour
 from validation.analysis.studies import rounded, runs_in

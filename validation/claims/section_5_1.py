@@ -20,6 +20,7 @@ from validation.analysis import (
     rank_correlation,
     relative_range,
     rubber_curves,
+    secant_shear_modulus,
     shape,
     warmth,
 )
@@ -38,7 +39,6 @@ from validation.drawing import COMPOUND_LOOKS, last_state
 _MODELS = {"Yeoh": YEOH, "van der Waals": VAN_DER_WAALS}
 _OF_BARS = [*YEOH.values(), *VAN_DER_WAALS.values()]
 _FORCE = "friction_force_N_per_mm"
-secant_shear_modulus = rubber_curves.secant_shear_modulus
 
 
 def stress_fields_alike(evidence: Evidence) -> Numbers:

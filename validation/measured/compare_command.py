@@ -1,7 +1,6 @@
 """The comparison of a file of measurements with a folder of results, as files and as text."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -92,16 +91,10 @@ def _text(comparison: Comparison, directory: Path) -> str:
 
 
 def _shown(statistics: pd.DataFrame) -> str:
-    percent: dict[str, Callable[[float], str]] = {
-        str(column): _percent
-        for column in statistics
-        if str(column).startswith(("share", "relative"))
-    }
-    text: str = statistics.to_string(
-        index=False, formatters=percent, float_format="{:.3g}".format, na_rep="-"
-    )
-    return text
+    def percent(share: float) -> str:
+        return "-" if math.isnan(share) else f"{share:.0%}"
 
-
-def _percent(share: float) -> str:
-    return "-" if math.isnan(share) else f"{share:.0%}"
+    shares = [name for name in statistics if str(name).startswith(("share", "relative"))]
+    formats = dict.fromkeys(shares, percent)
+    shown = {"formatters": formats, "float_format": "{:.3g}".format, "na_rep": "-"}
+    return str(statistics.to_string(index=False, **shown))

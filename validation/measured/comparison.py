@@ -75,17 +75,15 @@ def compare(measurements: Measurements, runs: pd.DataFrame) -> Comparison:
             file=measurements.file, found="no test that was simulated", expected=_offer(runs)
         )
     apart = float(np.max(np.abs(table["T_0_measured_C"] - table["T_0_simulated_C"])))
-    notes = []
-    if apart > 0.0:
-        notes.append(
-            f"simulations start up to {apart:.3g} K from the T_0_C of the tests: the errors of "
-            "T_max_C are those of its rise"
-        )
-    alone = np.ones(len(points), dtype=bool)
-    alone[tests] = False
-    unmatched = points["run"].to_numpy()[alone]
+    note = (
+        f"simulations start up to {apart:.3g} K from the T_0_C of the tests: the errors of "
+        "T_max_C are those of its rise"
+    )
     return Comparison(
-        table=table, statistics=statistics(table), unmatched=unmatched.tolist(), notes=notes
+        table=table,
+        statistics=statistics(table),
+        unmatched=np.delete(points["run"].to_numpy(), tests).tolist(),
+        notes=[note] if apart > 0.0 else [],
     )
 
 
@@ -169,12 +167,7 @@ def _table(points: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(
         {
             "run": own["run"],
-            "case": run["case"],
-            "variant": run["variant"],
-            "compound": run["compound"],
-            "law": run["law"],
-            "block": run["block"],
-            "v_mm_per_s": run["v_mm_per_s"],
+            **{name: run[name] for name in (*_WORDS, "block", "v_mm_per_s")},
             "p_measured_N_per_mm2": own["p_N_per_mm2"],
             "p_simulated_N_per_mm2": run["p_N_per_mm2"],
             "T_0_measured_C": own["T_0_C"],
@@ -221,13 +214,8 @@ def statistics(table: pd.DataFrame) -> pd.DataFrame:
 
 def _moments(part: pd.DataFrame, quantity: str) -> dict[str, float]:
     error, relative = part["error"].to_numpy(), part["relative_error"].to_numpy()
+    within = {limit: float(np.mean(np.abs(error) <= limit)) for limit in LIMITS_K}
     is_temperature = quantity == "T_max_C"
-    shares = {
-        f"share_within_{limit:g}_K": float(np.mean(np.abs(error) <= limit))
-        if is_temperature
-        else np.nan
-        for limit in LIMITS_K
-    }
     return {
         "n": len(error),
         "bias": float(error.mean()),
@@ -235,5 +223,8 @@ def _moments(part: pd.DataFrame, quantity: str) -> dict[str, float]:
         "largest_error": float(error[np.argmax(np.abs(error))]),
         "relative_bias": float(relative.mean()),
         "relative_rmse": float(np.sqrt(np.mean(relative**2))),
-        **shares,
+        **{
+            f"share_within_{limit:g}_K": share if is_temperature else np.nan
+            for limit, share in within.items()
+        },
     }

@@ -1,6 +1,5 @@
 """Pictures of a comparison: measured against simulated values, and the temperature profiles."""
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -41,8 +40,7 @@ def draw_comparison(comparison: Comparison) -> Figure:
     table = comparison.table
     quantities = [quantity for quantity in QUANTITIES if (table["quantity"] == quantity).any()]
     variants = list(dict.fromkeys(table["variant"]))
-    height = 70.0 + 5.0 * ((len(variants) + 1) // 2)
-    figure = new_figure(PAGE_WIDTH, height)
+    figure = new_figure(PAGE_WIDTH, 70.0 + 5.0 * ((len(variants) + 1) // 2))
     panels = figure.subplots(1, _COLUMNS, squeeze=False)[0]
     for axes in panels[len(quantities) :]:
         axes.remove()
@@ -69,9 +67,7 @@ def _draw_agreement(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
         width = LIMITS_K[-1]
         axes.fill_between(ends, ends - width, ends + width, color="0.92", label=f"± {width:g} K")
     axes.plot(ends, ends, color=GREY, lw=0.8)
-    axes.set_xlim(*ends)
-    axes.set_ylim(*ends)
-    axes.set_aspect("equal")
+    axes.set(xlim=ends, ylim=ends, aspect="equal")
     axes.set(xlabel=f"measured {_LABELS[quantity]}", ylabel=f"simulated {_LABELS[quantity]}")
     axes.locator_params(nbins=5)
     axes.grid(True)
@@ -94,37 +90,21 @@ def draw_profiles(measurements: Measurements, runs: pd.DataFrame) -> Figure:
     legend: dict[str, Any] = {}
     for axes, (profile, found) in zip(panels.flat, shown, strict=False):
         for run in found.to_dict("records"):
-            _draw_simulated(axes, run, variants.index(run["variant"]))
+            number, surface = variants.index(run["variant"]), surface_of(run)
+            colour, dash = CURVES[number % len(CURVES)], DASHES[number % len(DASHES)]
+            look = {"color": colour, "ls": dash, "label": str(run["variant"])}
+            axes.plot(surface["X_mm"], surface["T_C"], **look)
         draw_measured_profile(axes, profile)
         axes.set(title=profile.run, xlabel="$X$ [mm]")
         axes.set_ylabel("$T$ [°C]" if axes in panels[:, 0] else "")
         axes.grid(True)
         legend |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-    figure.legend(
-        list(legend.values()), list(legend), loc="outside lower center", ncols=min(2, len(legend))
-    )
+    place = {"loc": "outside lower center", "ncols": min(2, len(legend))}
+    figure.legend(list(legend.values()), list(legend), **place)
     return figure
 
 
 def draw_measured_profile(axes: Axes, profile: Profile) -> None:
     """Draw a measured profile as points, in its own coordinate from the trailing corner."""
-    axes.plot(
-        profile.X_mm - profile.X_mm[0],
-        profile.T_C,
-        ls="",
-        marker=".",
-        ms=3.0,
-        color=BLACK,
-        label="measured",
-    )
-
-
-def _draw_simulated(axes: Axes, run: Mapping[Any, Any], number: int) -> None:
-    surface = surface_of(run)
-    axes.plot(
-        surface["X_mm"],
-        surface["T_C"],
-        color=CURVES[number % len(CURVES)],
-        ls=DASHES[number % len(DASHES)],
-        label=str(run["variant"]),
-    )
+    X = profile.X_mm - profile.X_mm[0]
+    axes.plot(X, profile.T_C, ls="", marker=".", ms=3.0, color=BLACK, label="measured")

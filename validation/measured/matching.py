@@ -58,11 +58,8 @@ def _nearest_in_pressure(fits: BoolArray, points: pd.DataFrame, runs: pd.DataFra
     """For tests with a pressure the one simulation of each variant and velocity that is nearest."""
     pressure = points[_PRESSURE].to_numpy(dtype=float)[:, None]
     with_pressure = np.isfinite(pressure[:, 0])
-    for columns in (
-        runs.reset_index()
-        .groupby(["variant", "v_mm_per_s", "block"], dropna=False)
-        .indices.values()
-    ):
+    groups = runs.reset_index().groupby(["variant", "v_mm_per_s", "block"], dropna=False)
+    for columns in groups.indices.values():
         if len(columns) < 2:
             continue
         own = fits[:, columns]

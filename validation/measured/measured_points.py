@@ -8,21 +8,12 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from validation.drawing import BLACK, COMPOUND_LOOKS
-from validation.measured.comparison_figures import draw_measured_profile
 from validation.measured.matching import TOLERANCES
 from validation.measured.measurements import Measurements, Profile
 
 _PRESSURE = "p_N_per_mm2"
 _UNKNOWN = "*"
 MEASURED_MARK = Line2D([], [], color=BLACK, ls="", marker=_UNKNOWN, label="measured (filled)")
-
-__all__ = [
-    "MEASURED_MARK",
-    "draw_measured_points",
-    "draw_measured_profile",
-    "measured_profiles",
-    "shared_legend",
-]
 
 
 def measured_profiles(measured: Measurements | None, velocity_mm_per_s: float) -> list[Profile]:

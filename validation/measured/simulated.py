@@ -24,11 +24,9 @@ from fem.results import (
 )
 from validation.measured.measurements import ALL_BLOCKS, QUANTITIES
 
-_PRESSURE, _VELOCITY, _START = (
-    "loading.mean_pressure_N_per_mm2",
-    "loading.velocity_mm_per_s",
-    "heat.ambient_C",
-)
+#: Keys of a case that are conditions of a test, beside the same of a phase.
+_CONDITIONS = ("mean_pressure_N_per_mm2", "velocity_mm_per_s")
+_START = "heat.ambient_C"
 #: What a pyrometer reads of quantities of the surface, in a summary.
 _READ = {"T_max_C": "T_max_pyrometer_C", "A_T_K_mm": "A_T_pyrometer_K_mm"}
 
@@ -181,7 +179,7 @@ def _variants(cases: list[Case]) -> list[str]:
 def _is_condition(key: str) -> bool:
     """Whether a key is the pressure or the velocity, of the slide or of a phase."""
     section, *_, last = key.split(".")
-    return section == "loading" and f"{section}.{last}" in (_PRESSURE, _VELOCITY)
+    return section == "loading" and last in _CONDITIONS
 
 
 def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

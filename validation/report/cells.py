@@ -45,11 +45,8 @@ class CellTable:
     def without(self, *names: str) -> CellTable:
         """Leave out columns."""
         kept = [i for i, name in enumerate(self.columns) if name not in names]
-        return CellTable(
-            name=self.name,
-            columns=tuple(self.columns[i] for i in kept),
-            rows=tuple(tuple(row[i] for i in kept) for row in self.rows),
-        )
+        columns, *rows = (tuple(row[i] for i in kept) for row in (self.columns, *self.rows))
+        return CellTable(name=self.name, columns=columns, rows=tuple(rows))
 
 
 def read_cells(path: Path) -> CellTable:
@@ -68,9 +65,8 @@ def read_cells(path: Path) -> CellTable:
         raise CaseError(str(path), "content", found, expected) from None
     columns = tuple(lines[0]) if lines else ()
     width = len(columns)
-    rows = tuple(
-        tuple(short(cell) for cell in [*line, *[""] * width][:width]) for line in lines[1:]
-    )
+    filled = ([*line, *[""] * width][:width] for line in lines[1:])
+    rows = tuple(tuple(map(short, line)) for line in filled)
     return CellTable(name=path.name, columns=columns, rows=rows)
 
 

@@ -32,10 +32,8 @@ class MadeWith:
     ----------
     date : str
         Local date and time with the offset from UTC.
-    program : str
-        Version of treadfem and fingerprint of what computes.
-    commit : str
-        Commit and whether there are changes beside it, or that there is none.
+    program, commit : str
+        From `program_version` and `describe_commit`.
     versions : dict
         Python and packages to their versions.
     """
@@ -52,10 +50,7 @@ def made_with() -> MadeWith:
         date=datetime.now().astimezone().strftime("%Y-%m-%d %H:%M UTC%z"),
         program=program_version(),
         commit=describe_commit(ROOT),
-        versions={
-            "Python": platform.python_version(),
-            **{p: version_of(p) for p in PACKAGES},
-        },
+        versions={"Python": platform.python_version()} | {p: version_of(p) for p in PACKAGES},
     )
 
 

@@ -95,16 +95,13 @@ def render(page: Page) -> str:
 
 
 #: Words of a verdict or status to the colour it is shown in.
-TONES = {
-    "good": ("ok", "holds"),
-    "bad": ("differs", "not converged", "failed"),
-}
+TONES = dict.fromkeys(("ok", "holds"), "good")
+TONES |= dict.fromkeys(("differs", "not converged", "failed"), "bad")
 
 
 def tone(word: str) -> str:
     """Colour of a verdict or a status: "good", "bad", or "open" for what is neither."""
-    known = [name for name, words in TONES.items() if word.strip().lower() in words]
-    return known[0] if known else "open"
+    return TONES.get(word.strip().lower(), "open")
 
 
 def write_report(directory: Path, path: Path) -> Path:

@@ -1,7 +1,6 @@
 """The parts of a report as they lie in a folder of figures, and those that are missing."""
 
 import base64
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,12 +13,8 @@ class Part:
 
     Attributes
     ----------
-    anchor : str
-        Its place on the page.
-    title : str
-        Heading.
-    caption : str
-        What it shows.
+    anchor, title, caption : str
+        Its place on the page, its heading, and what it shows.
     command : str
         What makes it.
     picture : str
@@ -49,13 +44,17 @@ def find_part(directory: Path, anchor: str, title: str, caption: str = "") -> Pa
     Tables of the paper have all of their CSV files, figures only the picture.
     """
     stated = [] if anchor.startswith("fig") else sorted(directory.glob(f"{anchor}[._]*csv"))
+    tables = [table for path in stated if path.is_file() and (table := read_cells(path)).columns]
+    # What is compared with the paper comes before what goes beyond it.
+    tables.sort(key=lambda table: not any("paper" in column for column in table.columns))
+    picture = directory / f"{anchor}.png"
     return Part(
         anchor=anchor,
         title=title,
         caption=caption,
         command=f"make {anchor}",
-        picture=_picture(directory / f"{anchor}.png"),
-        tables=_papers_first(_tables(stated)),
+        picture=base64.b64encode(picture.read_bytes()).decode() if picture.is_file() else "",
+        tables=tuple(tables),
         note=first_paragraph(directory / f"{anchor}.txt"),
     )
 
@@ -65,17 +64,3 @@ def first_paragraph(path: Path) -> str:
     if not path.is_file():
         return ""
     return " ".join(path.read_text(encoding="utf-8", errors="replace").split("\n\n")[0].split())
-
-
-def _picture(path: Path) -> str:
-    return base64.b64encode(path.read_bytes()).decode("ascii") if path.is_file() else ""
-
-
-def _papers_first(tables: tuple[CellTable, ...]) -> tuple[CellTable, ...]:
-    """Put what is compared with the paper before what goes beyond it."""
-    return tuple(sorted(tables, key=lambda table: not any("paper" in c for c in table.columns)))
-
-
-def _tables(paths: Sequence[Path]) -> tuple[CellTable, ...]:
-    found = (read_cells(path) for path in paths if path.is_file())
-    return tuple(table for table in found if table.columns)

@@ -71,32 +71,21 @@ def _row(run: StudyRun, base: StudyRun) -> dict[str, Any]:
         "parameter": AND.join(keys) or BASE,
         "label": parameter.label if parameter else "introductory example",
         "group": parameter.group if parameter else BASE,
-        "from": _values(base, keys),
-        "to": _values(run, keys),
+        "from": ", ".join(_value(base, key) for key in keys),
+        "to": ", ".join(_value(run, key) for key in keys),
         "status": summary["status"],
         "reason": summary.get("reason") or "",
         "reached_mm": float(history["sliding_distance_mm"].iloc[-1]) if len(history) else 0.0,
-        **{key: _number(summary[key]) for key in RESULTS},
+        **{key: float("nan") if summary[key] is None else float(summary[key]) for key in RESULTS},
     }
 
 
-def _values(run: StudyRun, keys: list[str]) -> str:
-    return ", ".join(_shown(_value(run, key)) for key in keys)
-
-
-def _value(run: StudyRun, key: str) -> Any:
+def _value(run: StudyRun, key: str) -> str:
     """Value of a key in a run; of a parameter file, which is not in its case, the name."""
-    if not key.endswith(".parameters"):
-        return run[key]
-    named = run.study_case.overrides.get(key)
-    return "none" if named is None else Path(str(named)).stem
-
-
-def _shown(value: Any) -> str:
+    if key.endswith(".parameters"):
+        named = run.study_case.overrides.get(key)
+        return "none" if named is None else Path(str(named)).stem
+    value = run[key]
     if isinstance(value, bool):
         return "on" if value else "off"
     return f"{value:g}" if isinstance(value, (int, float)) else str(value)
-
-
-def _number(value: float | None) -> float:
-    return float("nan") if value is None else float(value)

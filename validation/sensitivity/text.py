@@ -75,14 +75,13 @@ def _change(row: pd.Series) -> str:
 
 
 def _stopped(table: pd.DataFrame) -> str:
-    rows = table[table["status"] != "ok"]
-    lines = [
-        _wrapped(
-            f"- {_change(row)}: {row['status']} at {row['reached_mm']:.3g} mm; {row['reason']}"
-        )
-        for _, row in rows[rows["parameter"].map(lambda key: key != "base")].iterrows()
+    rows = table[(table["status"] != "ok") & (table["parameter"] != "base")]
+    said = [
+        f"- {_change(row)}: {row['status']} at {row['reached_mm']:.3g} mm; {row['reason']}"
+        for _, row in rows.iterrows()
     ]
-    return "Did not get to their end\n\n" + "\n".join(lines) if lines else ""
+    lines = map(_wrapped, said)
+    return "Did not get to their end\n\n" + "\n".join(lines) if said else ""
 
 
 def _reasons(rows: pd.DataFrame) -> str:

@@ -88,15 +88,11 @@ def _lines(rows: pd.DataFrame) -> list[_Line]:
         if not any(line.group == row["group"] for line in lines):
             lines.append(_Line(HEADINGS[row["group"]], row["group"]))
         first = row["parameter"] != before
-        lines.append(_Line(_words(row, first=first), row["group"], row, first))
+        to = f"→ {row['to']} {PARAMETERS[first_key(row['parameter'])].unit}".strip()
+        words = f"{row['label']}: {row['from']} {to}" if first else to
+        lines.append(_Line(words, row["group"], row, first))
         before = row["parameter"]
     return lines
-
-
-def _words(row: pd.Series, *, first: bool) -> str:
-    unit = PARAMETERS[first_key(row["parameter"])].unit
-    to = f"{row['to']} {unit}".strip()
-    return f"{row['label']}: {row['from']} → {to}" if first else f"→ {to}"
 
 
 def _draw_panel(axes: Axes, lines: list[_Line], column: str) -> None:
@@ -129,15 +125,10 @@ def _draw_bar(axes: Axes, place: int, value: float, colour: str, longest: float)
     left = value < 0.0
     if end != value:
         axes.plot(end, place, marker="<" if left else ">", color=colour, ms=7.0, clip_on=False)
-    axes.annotate(
-        signed(value),
-        (end, place),
-        xytext=((-2.0 if left else 2.0) * (1.0 if end == value else 2.5), 0.0),
-        textcoords="offset points",
-        ha="right" if left else "left",
-        va="center",
-        fontsize=6.5,
-    )
+    beside = (-2.0 if left else 2.0) * (1.0 if end == value else 2.5)
+    look = {"ha": "right" if left else "left", "va": "center", "fontsize": 6.5}
+    offset = {"xytext": (beside, 0.0), "textcoords": "offset points"}
+    axes.annotate(signed(value), (end, place), **offset, **look)
 
 
 def limit(values: np.ndarray) -> float:
@@ -155,17 +146,9 @@ def _is_cut(values: pd.Series) -> bool:
 
 def _say_where_it_stopped(axes: Axes, place: int, reached_mm: float) -> None:
     words = f"stopped at {reached_mm:.3g} mm"
-    axes.text(
-        0.5,
-        place,
-        words,
-        transform=axes.get_yaxis_transform(),
-        color=GREY,
-        fontsize=6.0,
-        ha="center",
-        va="center",
-        bbox={"fc": "white", "ec": "none", "pad": 0.8},
-    )
+    look = {"color": GREY, "fontsize": 6.0, "ha": "center", "va": "center"}
+    box = {"fc": "white", "ec": "none", "pad": 0.8}
+    axes.text(0.5, place, words, transform=axes.get_yaxis_transform(), bbox=box, **look)
 
 
 def _label_lines(axes: Axes, lines: list[_Line]) -> None:

@@ -3,12 +3,11 @@
 from pathlib import Path
 
 from fem.files import write_table, write_text
-from fem.sweeps import study_runs
 from validation.drawing import save
 from validation.sensitivity.table import sensitivity_table
 from validation.sensitivity.text import sensitivity_text
 from validation.sensitivity.tornado import draw
-from validation.studies import cases_of
+from validation.studies import runs_of
 
 STUDY = "sensitivity"
 
@@ -19,7 +18,7 @@ def write_sensitivity(directory: Path) -> Path:
     Runs that are missing in ``directory/runs`` are simulated there first.
     """
     directory = Path(directory)
-    table = sensitivity_table(study_runs(cases_of(STUDY), directory))
+    table = sensitivity_table(runs_of(STUDY, directory))
     write_table(directory / "sensitivity.csv", table)
     save(draw(table), directory / "sensitivity.png")
     path = directory / "sensitivity.txt"

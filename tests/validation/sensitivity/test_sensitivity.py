@@ -198,7 +198,7 @@ def test_the_text_says_what_matters_most_what_stopped_and_why_these_ranges(table
 
 def test_table_picture_and_text_are_written_together(tmp_path, monkeypatch):
     runs = made_up_study(CHANGES)
-    monkeypatch.setattr(write, "study_runs", lambda study, directory: runs)
+    monkeypatch.setattr(write, "runs_of", lambda study, directory: runs)
     path = write.write_sensitivity(tmp_path / "figures")
     assert path.name == "sensitivity.txt"
     assert path.with_suffix(".png").read_bytes().startswith(b"\x89PNG")
