@@ -63,16 +63,14 @@ class Run:
 
     def at(self, motion: float, column: str) -> float:
         """Number after a distance slid [mm]; at 0 the block is pressed."""
-        return float(
-            np.interp(PRESSING_TIME + motion, self.history["deck_time"], self.history[column])
-        )
+        time = PRESSING_TIME + motion
+        return float(np.interp(time, self.history["deck_time"], self.history[column]))
 
     def sink_at(self, middle_load: float) -> float:
         """Platen displacement at which the middle section carries a load per depth [mm]."""
         before = self.history["deck_time"].shift(fill_value=0.0)
         pressing = self.history[before < PRESSING_TIME]
-        load, sink = pressing[LOAD], pressing[SINK]
-        return float(np.interp(middle_load, load, sink))
+        return float(np.interp(middle_load, pressing[LOAD], pressing[SINK]))
 
 
 def computed(case: Case, layers: Layers, folder: Path, *, timeout_s: float = TIMEOUT) -> Run:
@@ -86,8 +84,9 @@ def computed(case: Case, layers: Layers, folder: Path, *, timeout_s: float = TIM
         tables = read_dat(run_calculix(deck, timeout_s=timeout_s))
     stiffness = normal_stiffness(case, mesh_of(case), options)
     history = deck_history(case, tables, layers)
-    moved = [_moved(tables, time) for time in history["deck_time"]]
-    parts = [_sections(case, layers, each, stiffness) for each in moved]
+    parts = [
+        _sections(case, layers, _moved(tables, time), stiffness) for time in history["deck_time"]
+    ]
     return Run(history=pd.concat([history, pd.DataFrame(parts)], axis=1))
 
 
@@ -147,27 +146,17 @@ def compared(case: Case, slab: Run, plane: Run) -> dict[str, float]:
     ends = {"pressed": 0.0, "slid": end}
     # The load up to which both are known.
     carried = min(plane.at(0.0, LOAD), slab.at(0.0, LOAD))
-    return (
-        {f"force_at_{at:g}_mm": _over(slab, plane, at, FORCE) for at in MOTIONS}
-        | {
-            f"{name}_{state}": _over(slab, plane, at, column)
-            for name, column in RATIOS.items()
-            for state, at in ends.items()
-        }
-        | {"middle_platen_at_equal_load": slab.sink_at(carried) / plane.sink_at(carried)}
-        | {
-            f"depth_strain_share_{state}": slab.at(at, "depth_strain") * height / slab.at(at, SINK)
-            for state, at in ends.items()
-        }
-        | {
-            "side_peak_over_middle": slab.at(end, "side_peak_N_per_mm2") / slab.at(end, PEAK),
-            "side_lowest_um": 1e3 * float(slab.history["side_lowest_mm"].min()),
-        }
-    )
-
-
-def _over(slab: Run, plane: Run, motion: float, column: str) -> float:
-    return slab.at(motion, column) / plane.at(motion, column)
+    found = {f"force_at_{at:g}_mm": slab.at(at, FORCE) / plane.at(at, FORCE) for at in MOTIONS}
+    for name, column in RATIOS.items():
+        for state, at in ends.items():
+            found[f"{name}_{state}"] = slab.at(at, column) / plane.at(at, column)
+    found["middle_platen_at_equal_load"] = slab.sink_at(carried) / plane.sink_at(carried)
+    for state, at in ends.items():
+        strain = slab.at(at, "depth_strain")
+        found[f"depth_strain_share_{state}"] = strain * height / slab.at(at, SINK)
+    found["side_peak_over_middle"] = slab.at(end, "side_peak_N_per_mm2") / slab.at(end, PEAK)
+    found["side_lowest_um"] = 1e3 * float(slab.history["side_lowest_mm"].min())
+    return found
 
 
 def row(case: Case, ratio: float, cells: int, folder: Path) -> dict[str, Any]:

@@ -49,10 +49,8 @@ def top_loads(case: Case, mesh: BlockMesh, layers: Layers = PLANE) -> list[str]:
 def _amplitude(name: str, times: tuple[float, ...], values: tuple[float, ...]) -> list[str]:
     """Amplitude through points; of equal times only the first counts."""
     kept = [i for i, t in enumerate(times) if i == 0 or t > times[i - 1]]
-    return [
-        f"*AMPLITUDE, NAME={name}",
-        numbers(*(number for i in kept for number in (times[i], values[i]))),
-    ]
+    points = [number for i in kept for number in (times[i], values[i])]
+    return [f"*AMPLITUDE, NAME={name}", numbers(*points)]
 
 
 def _requests(held: str, layers: Layers) -> list[str]:

@@ -13,7 +13,7 @@ References
 """
 
 from fem.case import Case, CaseError
-from materials.hyperelastic import Hyperelastic, MooneyRivlin, NeoHooke, Yeoh
+from materials.hyperelastic import MooneyRivlin, NeoHooke, Yeoh
 from materials.ogden import Ogden
 
 #: Compliance D [mm^2/N] that switches a volumetric term off. Zero does not: CalculiX 2.20 then
@@ -28,36 +28,26 @@ def hyperelastic_card(case: Case) -> list[str]:
     model, D1 = case.rubber.model(), 2.0 / case.rubber.bulk_modulus
     for key in ("viscoelastic", "mullins"):
         if getattr(case.rubber, key) is not None:
-            raise CaseError(
-                case.source,
-                f"rubber.{key}",
-                "rubber that remembers",
-                "an elastic rubber: the deck has no such material",
-            )
+            expected = "an elastic rubber: the deck has no such material"
+            raise CaseError(case.source, f"rubber.{key}", "rubber that remembers", expected)
     if isinstance(model, NeoHooke):
         return ["*HYPERELASTIC, NEO HOOKE", numbers(0.5 * model.G, D1)]
     if isinstance(model, MooneyRivlin):
         return ["*HYPERELASTIC, MOONEY-RIVLIN", numbers(model.C10, model.C01, D1)]
     if isinstance(model, Yeoh):
-        constants = numbers(model.C10, model.C20, model.C30, D1, OFF, OFF)
-        return ["*HYPERELASTIC, YEOH", constants]
+        return ["*HYPERELASTIC, YEOH", numbers(model.C10, model.C20, model.C30, D1, OFF, OFF)]
     if isinstance(model, Ogden) and len(model.mu) <= MOST_OGDEN_TERMS:
         pairs = [value for pair in zip(model.mu, model.alpha, strict=True) for value in pair]
         values = [*pairs, D1, *[OFF] * (len(model.mu) - 1)]
         lines = [numbers(*values[i : i + 8]) for i in range(0, len(values), 8)]
         return [f"*HYPERELASTIC, OGDEN, N={len(model.mu)}", *lines]
-    raise _no_such_material(case, model)
-
-
-def _no_such_material(case: Case, model: Hyperelastic) -> CaseError:
     key = "rubber.compound" if case.rubber.compound is not None else "rubber.model"
-    return CaseError(
-        case.source,
-        key,
-        f'"{case.rubber.compound or case.rubber.model_name}" ({type(model).__name__})',
+    found = f'"{case.rubber.compound or case.rubber.model_name}" ({type(model).__name__})'
+    expected = (
         "a Yeoh, Mooney-Rivlin, neo-Hookean or Ogden rubber: no other energy here is "
-        "the same in CalculiX",
+        "the same in CalculiX"
     )
+    raise CaseError(case.source, key, found, expected)
 
 
 def numbers(*values: float) -> str:

@@ -85,9 +85,10 @@ def block_lines(mesh: BlockMesh, element: str, layers: Layers = PLANE) -> list[s
     }
     if layers.free:
         sets |= {"MIDDLE": np.setdiff1d(plane, mesh.top), "SIDE": plane + n * layers.cells}
+    firsts = zip(layers.z.tolist(), range(1, n * (layers.cells + 1), n), strict=True)
     return [
         "*NODE, NSET=BLOCK",
-        *(row for k, z in enumerate(layers.z.tolist()) for row in _layer(mesh, k, z)),
+        *(row for z, first in firsts for row in _node_rows(mesh.points, z, first=first)),
         f"*ELEMENT, TYPE={element}, ELSET=RUBBER",
         *_element_rows(corners.reshape(-1, 8), first=1),
         *(line for name, nodes in sets.items() for line in _node_set(name, nodes)),
@@ -119,16 +120,9 @@ def held_lines(*, bonded: bool, layers: Layers = PLANE) -> list[str]:
 
 
 def road_lines(mesh: BlockMesh, distance: float, layers: Layers = PLANE) -> list[str]:
-    """One brick, its top at y = 0, that reaches as far as the block slides and rolls.
+    """One brick, its top at y = 0, that reaches as far as the block slides [mm] and rolls.
 
-    Parameters
-    ----------
-    mesh : BlockMesh
-        Mesh of the block; the road's numbers follow on its numbers.
-    distance : float
-        Sliding distance [mm].
-    layers : Layers
-        What lies on it.
+    Its numbers follow on those of the block.
     """
     margin = 0.5 * mesh.length
     left = -margin - (distance if mesh.direction < 0 else 0.0)
@@ -162,16 +156,11 @@ def free_surface_lines(mesh: BlockMesh, layers: Layers = PLANE) -> list[str]:
 
 
 def _equations(followers: IntArray, leaders: IntArray, component: int) -> list[str]:
-    pairs = zip((followers + 1).tolist(), (leaders + 1).tolist(), strict=True)
     return [
         line
-        for a, b in pairs
+        for a, b in zip((followers + 1).tolist(), (leaders + 1).tolist(), strict=True)
         for line in ("*EQUATION", "2", f"{a}, {component}, 1., {b}, {component}, -1.")
     ]
-
-
-def _layer(mesh: BlockMesh, k: int, z: float) -> list[str]:
-    return _node_rows(mesh.points, z, first=k * len(mesh.points) + 1)
 
 
 def _node_rows(plane: FloatArray, z: float, *, first: int) -> list[str]:

@@ -121,13 +121,11 @@ def deck_history(case: Case, tables: Sequence[DatTable], layers: Layers = PLANE)
     surface = _by_time(tables, "displacements", {"SURFACE"})
     platen = _by_time(tables, "displacements", {"TOP"})
     reaction = _by_time(tables, "total force", {"ROAD", "GLUED"})
-    times = sorted(surface.keys() & platen.keys() & reaction.keys())
-    return pd.DataFrame(
-        [
-            _row(mesh, surface[t], platen[t].values, reaction[t].values[0] / layers.depth)
-            for t in times
-        ]
-    )
+    rows = [
+        _row(mesh, surface[t], platen[t].values, reaction[t].values[0] / layers.depth)
+        for t in sorted(surface.keys() & platen.keys() & reaction.keys())
+    ]
+    return pd.DataFrame(rows)
 
 
 def _by_time(tables: Sequence[DatTable], quantity: str, sets: set[str]) -> dict[float, DatTable]:
@@ -157,12 +155,8 @@ def _row(
 def contact_length(boundary: FloatArray, joined: NDArray[np.bool_]) -> float:
     """Length of the road that edges with both ends on or in it cover [mm].
 
-    Parameters
-    ----------
-    boundary : (m, 2) float array
-        Current positions of the free boundary's nodes, in order [mm].
-    joined : (m - 1,) bool array
-        Whether an edge joins a node and the next one.
+    `boundary` has the current positions of the free boundary's nodes in order, (m, 2) [mm], and
+    `joined` says whether an edge joins a node and the next one, (m - 1,).
     """
     touching = boundary[:, 1] <= 0.0
     both = touching[:-1] & touching[1:] & joined

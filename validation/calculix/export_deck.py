@@ -100,7 +100,10 @@ def input_deck(case: Case, options: DeckOptions | None = None) -> str:
     _refuse_what_no_deck_has(case, options)
     case = sized(case)
     mesh, layers = mesh_of(case), options.layers
-    _refuse_too_many_bricks(case, mesh, layers)
+    most = MOST_BRICKS // len(mesh.cells)
+    if layers.free and layers.cells > most:
+        expected = f"at most {most} layers of {len(mesh.cells)} cells ({MOST_BRICKS} bricks)"
+        raise CaseError(case.source, "--cells-z", describe(layers.cells), expected)
     bonded, platen = options.bonded, case.loading.top == "platen"
     lines = [
         *_heading(case, options),
@@ -168,19 +171,11 @@ def _refuse_what_no_deck_has(case: Case, options: DeckOptions) -> None:
         expected = "one slide (mean_pressure_N_per_mm2, velocity_mm_per_s, distance_mm)"
         raise CaseError(case.source, "loading.phase", found, expected)
     if case.block.rigid:
-        raise CaseError(
-            case.source, "block.rigid", "true", "false: a rigid block has nothing to export"
-        )
+        expected = "false: a rigid block has nothing to export"
+        raise CaseError(case.source, "block.rigid", "true", expected)
     if options.layers.free and friction_remark(case):
         found, expected = describe(case.friction.law), '"coulomb" and a mu for a slab'
         raise CaseError(case.source, "friction.law", found, expected)
-
-
-def _refuse_too_many_bricks(case: Case, mesh: BlockMesh, layers: Layers) -> None:
-    most = MOST_BRICKS // len(mesh.cells)
-    if layers.free and layers.cells > most:
-        expected = f"at most {most} layers of {len(mesh.cells)} cells ({MOST_BRICKS} bricks)"
-        raise CaseError(case.source, "--cells-z", describe(layers.cells), expected)
 
 
 def _heading(case: Case, options: DeckOptions) -> list[str]:

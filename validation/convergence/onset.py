@@ -34,32 +34,21 @@ def swept_runs(study: str, directory: Path) -> list[SweptRun]:
     ValueError
         If one is missing, naming it.
     """
-    return [_swept(case, directory / RUNS_FOLDER / case.name) for case in cases_of(study)]
-
-
-def _swept(case: StudyCase, folder: Path) -> SweptRun:
-    summary = RunFolder(folder, case.case).of_case()
-    if summary is None:
-        raise ValueError(f"{folder} does not hold the run of this case of the study")
-    return SweptRun(
-        study_case=case, history=read_table(folder / HISTORY_FILE, HISTORY), summary=summary
-    )
+    runs = []
+    for case in cases_of(study):
+        folder = directory / RUNS_FOLDER / case.name
+        summary = RunFolder(folder, case.case).of_case()
+        if summary is None:
+            raise ValueError(f"{folder} does not hold the run of this case of the study")
+        history = read_table(folder / HISTORY_FILE, HISTORY)
+        runs.append(SweptRun(study_case=case, history=history, summary=summary))
+    return runs
 
 
 def force_at(history: pd.DataFrame, distances: FloatArray) -> FloatArray:
-    """Friction force at motions of the platen [N/mm], linear between the steps.
+    """Friction force at motions of the platen [mm], linear between the steps, (n,) [N/mm].
 
-    Parameters
-    ----------
-    history : DataFrame
-        Columns of `fem.results.columns.HISTORY`.
-    distances : (n,) float array
-        Motions [mm].
-
-    Returns
-    -------
-    (n,) float array
-        Not a number beyond the end of the history.
+    It is not a number beyond the end of the history.
     """
     from_rest = _from_rest(history)
     return _interpolated(from_rest, from_rest["friction_force_N_per_mm"].to_numpy(), distances)

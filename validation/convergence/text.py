@@ -21,6 +21,7 @@ _QUANTITIES = {
     "contact_length_mm": ("contact length", ".2f", "mm"),
     "friction_force_N_per_mm": ("friction force", ".3f", "N/mm"),
 }
+_HEADS = [f"{name} [{unit}]" for name, _, unit in _QUANTITIES.values()]
 _CASE = ("compound", "law", "mu", "height_mm", "velocity_mm_per_s")
 
 
@@ -36,7 +37,6 @@ def convergence_text(table: pd.DataFrame) -> str:
         f"steps {_factor(shortest)}": {"steps_scale": shortest},
         **{f"memory {m:g} mm": {"memory_mm": m} for m in _others(table, "memory_mm")},
     }
-    heads = [f"{name} [{unit}]" for name, _, unit in _QUANTITIES.values()]
     rows = [
         [mesh, name, *_cells(_varied(table, mesh, **change))]
         for mesh in table["mesh"].unique()
@@ -47,7 +47,7 @@ def convergence_text(table: pd.DataFrame) -> str:
         "run",
         f"force at {', '.join(f'{mm:g}' for mm in ONSET_MM)} mm [N/mm]",
         "platen [mm]",
-        *heads,
+        *_HEADS,
         "regularisation, snaps [%]",
         "iterations (rejected steps)",
     ]
@@ -114,8 +114,7 @@ def _ranges(runs: pd.DataFrame) -> str:
             half = "" if key.endswith("_C") else f" (±{100 * (high - low) / (high + low):.1f} %)"
             cells.append(f"{low:{form}} to {high:{form}}{half}")
         rows.append(cells)
-    heads = [f"{name} [{unit}]" for name, _, unit in _QUANTITIES.values()]
-    return markdown_table(["mesh", "runs", *heads], rows)
+    return markdown_table(["mesh", "runs", *_HEADS], rows)
 
 
 def _exceptions(table: pd.DataFrame) -> str:
@@ -152,24 +151,15 @@ def _others(table: pd.DataFrame, key: str) -> list[float]:
 def onset_text(table: pd.DataFrame) -> str:
     """Largest difference of each case's onset from its limit, and which are too large."""
     found = onset_differences(table)
-    rows = [
-        [
-            run["case"],
-            *(
-                f"{run[key]:.1f} % at {run[f'{key}_at_mm']:g} mm ({run[f'{key}_damping']:.1f} %)"
-                for key in _LOOKS
-            ),
-            f"{run['platen']:.2f} %",
+    rows = []
+    for _, run in found.iterrows():
+        looks = [
+            f"{run[key]:.1f} % at {run[f'{key}_at_mm']:g} mm ({run[f'{key}_damping']:.1f} %)"
+            for key in _LOOKS
         ]
-        for _, run in found.iterrows()
-    ]
-    columns = [
-        "case",
-        "default",
-        f"steps of at most {_second(table, 'step_mm_max'):g} mm",
-        "the limit in these steps",
-        "platen",
-    ]
+        rows.append([run["case"], *looks, f"{run['platen']:.2f} %"])
+    short = f"steps of at most {sorted(table['step_mm_max'].unique())[1]:g} mm"
+    columns = ["case", "default", short, "the limit in these steps", "platen"]
     return "\n\n".join([markdown_table(columns, rows), _verdict(found)])
 
 
@@ -210,21 +200,14 @@ def onset_differences(table: pd.DataFrame) -> pd.DataFrame:
 
 def _named(case: dict[str, object], table: pd.DataFrame) -> str:
     """What sets a case apart from the first one of the table."""
-    first = table.iloc[0]
-    words = []
-    if case["compound"] != first["compound"]:
-        words.append(str(case["compound"]))
-    if case["law"] != first["law"]:
-        words.append(f"{str(case['law']).capitalize()}, {case['mu']:g}")
-    if case["height_mm"] != first["height_mm"]:
-        words.append(f"{case['height_mm']:g} mm high")
-    if case["velocity_mm_per_s"] != first["velocity_mm_per_s"]:
-        words.append(f"{case['velocity_mm_per_s']:g} mm/s")
-    return ", ".join(words) or "introductory example"
-
-
-def _second(table: pd.DataFrame, key: str) -> float:
-    return float(sorted(table[key].unique())[1])
+    words = {
+        "compound": str(case["compound"]),
+        "law": f"{str(case['law']).capitalize()}, {case['mu']:g}",
+        "height_mm": f"{case['height_mm']:g} mm high",
+        "velocity_mm_per_s": f"{case['velocity_mm_per_s']:g} mm/s",
+    }
+    apart = [said for key, said in words.items() if case[key] != table.iloc[0][key]]
+    return ", ".join(apart) or "introductory example"
 
 
 def _verdict(found: pd.DataFrame) -> str:

@@ -23,12 +23,7 @@ from validation.convergence.table import (
     onset_table,
     snaps_table,
 )
-from validation.convergence.text import (
-    convergence_text,
-    onset_text,
-    robustness_text,
-    snaps_text,
-)
+from validation.convergence.text import convergence_text, onset_text, robustness_text, snaps_text
 
 PAGE = Path(__file__).parents[2] / "docs" / "verification.md"
 #: Its part that is written here.
