@@ -19,7 +19,7 @@ from fem import Case
 from fem.files import BAD_INPUT, write_table, write_text
 from fem.stepping import mesh_of
 from materials.arrays import FloatArray, IntArray
-from validation.analysis import with_block
+from validation.analysis import markdown_table, with_block
 from validation.calculix import (
     PRESSING_TIME,
     CalculixError,
@@ -196,19 +196,12 @@ SHOWN = {
 
 def block(table: pd.DataFrame) -> str:
     """What stands between the page's markers."""
-    lines = [
-        f"| {' | '.join(SHOWN.values())} |",
-        "|" + " --- |" * len(SHOWN),
-        *(_line(record) for record in table.to_dict("records")),
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def _line(record: dict[Any, Any]) -> str:
-    ratio = f"{record['depth_over_height']:g}"
-    if record["status"] != "ok":
-        return f"| {ratio} | {record['status']} |"
-    return f"| {' | '.join([ratio, *(f'{record[key]:.3f}' for key in list(SHOWN)[1:])])} |"
+    rows = []
+    for _, run in table.iterrows():
+        ok = run["status"] == "ok"
+        numbers = [f"{run[key]:.3f}" for key in list(SHOWN)[1:]] if ok else [run["status"]]
+        rows.append([f"{run['depth_over_height']:g}", *numbers])
+    return markdown_table(SHOWN.values(), rows) + "\n"
 
 
 def main(directory: str) -> int:

@@ -69,15 +69,11 @@ def highest_pressure(result: Result) -> float:
 
 def interior_pressure(result: Result) -> float:
     """Highest contact pressure of the bottom surface behind its leading fifth [N/mm^2]."""
-    return _highest_behind(result, "pressure_N_per_mm2")
+    return highest_behind(result, "pressure_N_per_mm2")
 
 
-def interior_traction(result: Result) -> float:
-    """Highest friction traction of the bottom surface behind its leading fifth [N/mm^2]."""
-    return _highest_behind(result, "shear_N_per_mm2")
-
-
-def _highest_behind(result: Result, column: str) -> float:
+def highest_behind(result: Result, column: str) -> float:
+    """Highest value of a column of the bottom surface behind its leading fifth, by its size."""
     X = result.surface["X_mm"].to_numpy()
     behind = (X.max() - X) > EDGE_ZONE * np.ptp(X)
     return float(np.abs(result.surface[column].to_numpy()[behind]).max())

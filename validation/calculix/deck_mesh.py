@@ -85,10 +85,10 @@ def block_lines(mesh: BlockMesh, element: str, layers: Layers = PLANE) -> list[s
     }
     if layers.free:
         sets |= {"MIDDLE": np.setdiff1d(plane, mesh.top), "SIDE": plane + n * layers.cells}
-    firsts = zip(layers.z.tolist(), range(1, n * (layers.cells + 1), n), strict=True)
+    nodes = (_node_rows(mesh.points, z, first=k * n + 1) for k, z in enumerate(layers.z.tolist()))
     return [
         "*NODE, NSET=BLOCK",
-        *(row for z, first in firsts for row in _node_rows(mesh.points, z, first=first)),
+        *(row for layer in nodes for row in layer),
         f"*ELEMENT, TYPE={element}, ELSET=RUBBER",
         *_element_rows(corners.reshape(-1, 8), first=1),
         *(line for name, nodes in sets.items() for line in _node_set(name, nodes)),

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from fem.results import Result
 from validation.claims.evidence import Evidence, UnfinishedError
 from validation.claims.phrases import say
 from validation.claims.statements import CHANGES, LIMITS, case_keys
@@ -121,6 +120,7 @@ class Claim:
 
     def _tried(self, evidence: Evidence) -> str:
         """What comes out with each change of the introductory example, and if that is enough."""
+        assert self.compute is not None
         parts = []
         for change in self.tries["changes"]:
             words = CHANGES[change]["words"]
@@ -129,17 +129,14 @@ class Claim:
             except UnfinishedError as error:
                 parts.append(f"{words}: no result ({error})")
                 continue
-            parts.append(f"{words}: {self._judged_with(evidence, result)}")
+            other = copy.copy(evidence)
+            other.introductory = result
+            values, others = self.compute(other)
+            met = all(self._compared(values, others).values())
+            verdict = "meets the criterion" if met else "does not meet it"
+            shown = f"{values[self.tries['shown']]:.3g} {self.tries['unit']}"
+            parts.append(f"{words}: {shown}, {verdict}")
         return "With " + "; ".join(parts) + "."
-
-    def _judged_with(self, evidence: Evidence, introductory: Result) -> str:
-        assert self.compute is not None
-        other = copy.copy(evidence)
-        other.introductory = introductory
-        values, others = self.compute(other)
-        met = all(self._compared(values, others).values())
-        verdict = "meets the criterion" if met else "does not meet it"
-        return f"{values[self.tries['shown']]:.3g} {self.tries['unit']}, {verdict}"
 
 
 def _limit(words: str, names: Mapping[str, Any]) -> Any:

@@ -35,7 +35,10 @@ def edge_is_held_back(evidence: Evidence) -> Numbers:
     law, sliding = run.case.friction.plain_law(), abs(run.case.loading.velocity_mm_per_s)
     p = shape.highest_pressure(run)
     edge = float(law.coefficient(p, sliding)) * p
-    return {"edge_N_per_mm2": edge, "behind_N_per_mm2": shape.interior_traction(run)}, {}
+    return {
+        "edge_N_per_mm2": edge,
+        "behind_N_per_mm2": shape.highest_behind(run, "shear_N_per_mm2"),
+    }, {}
 
 
 def front_edge_curls(evidence: Evidence) -> Numbers:

@@ -35,6 +35,8 @@ def _row(row: pd.Series) -> str:
     for name in _FIELDS:
         if row[name] not in ("", "-"):
             label = f"     {name + ':':<13}"
-            indents = {"initial_indent": label, "subsequent_indent": " " * len(label)}
-            lines.append(textwrap.fill(row[name], _WIDTH, **indents))
+            below = " " * len(label)
+            lines.append(
+                textwrap.fill(row[name], _WIDTH, initial_indent=label, subsequent_indent=below)
+            )
     return "\n".join(lines)

@@ -31,11 +31,12 @@ _CASE = ("compound", "law", "mu", "height_mm", "velocity_mm_per_s")
 def convergence_text(table: pd.DataFrame) -> str:
     """Table of each mesh at its default, its limit and in short steps, and what scatters."""
     least, shortest = table["damping"].min(), table["steps_scale"].min()
+    others = sorted(set(table["memory_mm"]) - {_DEFAULT["memory_mm"]})
     shown = {
         "default": {},
         f"damping {_factor(least)}": {"damping": least},
         f"steps {_factor(shortest)}": {"steps_scale": shortest},
-        **{f"memory {m:g} mm": {"memory_mm": m} for m in _others(table, "memory_mm")},
+        **{f"memory {m:g} mm": {"memory_mm": m} for m in others},
     }
     rows = [
         [mesh, name, *_cells(_varied(table, mesh, **change))]
@@ -141,10 +142,6 @@ def _varied(table: pd.DataFrame, mesh: str, **change: float) -> pd.Series:
     return chosen.iloc[0]
 
 
-def _others(table: pd.DataFrame, key: str) -> list[float]:
-    return sorted(set(table[key]) - {_DEFAULT[key]})
-
-
 # -- the onset of other cases ----------------------------------------------------------------------
 
 
@@ -211,10 +208,13 @@ def _named(case: dict[str, object], table: pd.DataFrame) -> str:
 
 
 def _verdict(found: pd.DataFrame) -> str:
+    default, short, platen = (
+        f"{(found[key] <= ONSET_PERCENT).sum()} of {len(found)}"
+        for key in ("default", "short_steps", "platen")
+    )
     parts = [
-        f"Within {ONSET_PERCENT:g} % of full slip: {_counted(found, 'default')} with the defaults, "
-        f"{_counted(found, 'short_steps')} in short steps; the platen "
-        f"{_counted(found, 'platen')}."
+        f"Within {ONSET_PERCENT:g} % of full slip: {default} with the defaults, "
+        f"{short} in short steps; the platen {platen}."
     ]
     beyond = found[found["default"] > ONSET_PERCENT]
     if len(beyond):
@@ -228,10 +228,6 @@ def _verdict(found: pd.DataFrame) -> str:
     return " ".join(parts)
 
 
-def _counted(found: pd.DataFrame, key: str) -> str:
-    return f"{(found[key] <= ONSET_PERCENT).sum()} of {len(found)}"
-
-
 # -- large snaps -----------------------------------------------------------------------------------
 
 _SNAPPING = ["compound", "mean_pressure_N_per_mm2", "law", "mu"]
@@ -242,17 +238,14 @@ def snaps_text(table: pd.DataFrame) -> str:
     dampings = sorted(table["damping"].unique())
     rows, ranges = [], []
     for _, runs in table.groupby(_SNAPPING, sort=False, dropna=False):
-        own = runs.sort_values("damping")
-        rows.append([_snapping(own.iloc[0]), *(_outcome(run) for _, run in own.iterrows())])
+        own, case = runs.sort_values("damping"), runs.iloc[0]
+        friction = case["law"] if np.isnan(case["mu"]) else f"{case['law']} {case['mu']:g}"
+        name = f"{case['compound']}, {case['mean_pressure_N_per_mm2']:g} N/mm², {friction}"
+        rows.append([name, *(_outcome(run) for _, run in own.iterrows())])
         ended = own[own["status"] == "ok"]
         ranges.append((ended["snap_share"].max(), ended["T_max_C"].max() - ended["T_max_C"].min()))
     heads = ["case", *(f"damping {_factor(damping)}: snaps, T_max, force" for damping in dampings)]
     return f"{markdown_table(heads, rows)}\n\n{_where_snaps_matter(ranges)}"
-
-
-def _snapping(run: pd.Series) -> str:
-    friction = run["law"] if np.isnan(run["mu"]) else f"{run['law']} {run['mu']:g}"
-    return f"{run['compound']}, {run['mean_pressure_N_per_mm2']:g} N/mm², {friction}"
 
 
 def _outcome(run: pd.Series) -> str:

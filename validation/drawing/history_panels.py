@@ -46,21 +46,15 @@ def draw_contact(axes: Axes, history: pd.DataFrame) -> None:
     twin.set_ylim(bottom=0.0)
 
 
-def draw_surface_temperature(
-    axes: Axes, surface: pd.DataFrame, summary_T_max: float | None
-) -> None:
+def draw_surface_temperature(axes: Axes, surface: pd.DataFrame, T_max: float | None) -> None:
     """Draw the temperature along the bottom surface; regions in contact are shaded."""
     shade_contact(axes, surface)
     axes.plot(surface["X_mm"], surface["T_C"], color=VERMILLION)
-    if summary_T_max is not None:
-        axes.axhline(summary_T_max, color=GREY, lw=0.7, ls=":")
-        axes.annotate(
-            rf"$T_{{max}}$ = {summary_T_max:.1f} °C",
-            (float(surface["X_mm"].min()), summary_T_max),
-            xytext=(4, 3),
-            textcoords="offset points",
-            fontsize=7.5,
-        )
+    if T_max is not None:
+        axes.axhline(T_max, color=GREY, lw=0.7, ls=":")
+        place, offset = (float(surface["X_mm"].min()), T_max), {"textcoords": "offset points"}
+        text = rf"$T_{{max}}$ = {T_max:.1f} °C"
+        axes.annotate(text, place, xytext=(4, 3), **offset, fontsize=7.5)
     _along_bottom(axes, surface, "$T$ [°C]")
 
 

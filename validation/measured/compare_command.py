@@ -95,6 +95,7 @@ def _shown(statistics: pd.DataFrame) -> str:
         return "-" if math.isnan(share) else f"{share:.0%}"
 
     shares = [name for name in statistics if str(name).startswith(("share", "relative"))]
-    formats = dict.fromkeys(shares, percent)
-    shown = {"formatters": formats, "float_format": "{:.3g}".format, "na_rep": "-"}
-    return str(statistics.to_string(index=False, **shown))
+    formats, plain = {str(name): percent for name in shares}, "{:.3g}".format
+    return str(
+        statistics.to_string(index=False, formatters=formats, float_format=plain, na_rep="-")
+    )

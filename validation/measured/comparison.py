@@ -50,14 +50,7 @@ class Comparison:
 
 
 def compare(measurements: Measurements, runs: pd.DataFrame) -> Comparison:
-    """Put measured and simulated values beside each other.
-
-    Parameters
-    ----------
-    measurements : Measurements
-        What was measured.
-    runs : DataFrame
-        What `simulated_runs` gives.
+    """Put measured values and those of `simulated_runs` beside each other.
 
     Raises
     ------
@@ -185,12 +178,7 @@ def _table(points: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def statistics(table: pd.DataFrame) -> pd.DataFrame:
-    """Bias, RMSE, largest error and shares of temperatures within limits.
-
-    Parameters
-    ----------
-    table : DataFrame
-        `Comparison.table`.
+    """Bias, RMSE, largest error and shares of temperatures within limits, of `Comparison.table`.
 
     Returns
     -------

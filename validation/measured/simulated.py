@@ -114,6 +114,11 @@ def _plain_name(table: Path, name: str) -> str:
 
 
 def _of_run(case: Case, folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
+    begin, length = 0.0, case.block.length_mm
+    if case.block.file is not None:
+        # Where the bottom of a mesh file lies stands in its results only.
+        X = _surface(folder, pyrometer=False)["X_mm"]
+        begin, length = X.iloc[0], X.iloc[-1] - X.iloc[0]
     return {
         "case": folder.name,
         "folder": folder,
@@ -123,17 +128,10 @@ def _of_run(case: Case, folder: Path, summary: Mapping[str, Any]) -> dict[str, A
         "mean_pressure_N_per_mm2": case.loading.mean_pressure_N_per_mm2,
         "v_mm_per_s": abs(case.loading.velocity_mm_per_s),
         "T_0_C": case.heat.ambient_C,
-        **_place(case, folder),
+        "begin_mm": begin,
+        "length_mm": length,
         **_results(summary),
     }
-
-
-def _place(case: Case, folder: Path) -> dict[str, float]:
-    """Where the bottom of a block lies; that of a mesh file stands in its results only."""
-    if case.block.file is None:
-        return {"begin_mm": 0.0, "length_mm": case.block.length_mm}
-    X = _surface(folder, pyrometer=False)["X_mm"]
-    return {"begin_mm": X.iloc[0], "length_mm": X.iloc[-1] - X.iloc[0]}
 
 
 def _results(summary: Mapping[str, Any]) -> dict[str, float]:

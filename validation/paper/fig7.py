@@ -49,7 +49,9 @@ def draw(case: Case, mesh: BlockMesh) -> Figure:
     """Draw block, loads and supports on the left and the mesh at the leading corner beside it."""
     figure = new_figure(PAGE_WIDTH, 84.0)
     whole, detail = figure.subplots(1, 2, width_ratios=[2.05, 1.0])
-    window = _detail_window(mesh)
+    front = mesh.points[mesh.leading_corners[-1], 0]
+    sides = sorted(front + mesh.direction * share * DETAIL for share in (-0.85, 0.15))
+    window = (sides[0], sides[1], -0.15 * DETAIL, 0.85 * DETAIL)
     _draw_whole(whole, case, mesh, window)
     _draw_detail(detail, mesh, window)
     look = {"axesA": whole, "axesB": detail, "color": GREY, "lw": 0.5}
@@ -57,12 +59,6 @@ def draw(case: Case, mesh: BlockMesh) -> Figure:
         ends = (window[1], y), (window[0], y)
         figure.add_artist(ConnectionPatch(*ends, "data", "data", **look))
     return figure
-
-
-def _detail_window(mesh: BlockMesh) -> Window:
-    front = mesh.points[mesh.leading_corners[-1], 0]
-    inner, outer = front - mesh.direction * 0.85 * DETAIL, front + mesh.direction * 0.15 * DETAIL
-    return (min(inner, outer), max(inner, outer), -0.15 * DETAIL, 0.85 * DETAIL)
 
 
 def _draw_whole(axes: Axes, case: Case, mesh: BlockMesh, detail: Window) -> None:

@@ -86,16 +86,18 @@ def draw(states: dict[str, BlockState], notes: dict[str, str] | None = None) -> 
     """Draw a panel per compound on one scale, and all contours over each other."""
     figure = new_figure(PAGE_WIDTH, 205.0)
     grid = figure.add_gridspec(PANEL_ROWS + 1, 2, height_ratios=[1.0] * PANEL_ROWS + [1.75])
-    window, norm = _common_window(states), _common_scale(states)
+    x_min, _, y_min, _ = np.min([state.whole for state in states.values()], axis=0).tolist()
+    _, x_max, _, y_max = np.max([state.whole for state in states.values()], axis=0).tolist()
+    window = (x_min, x_max, y_min, y_max)
+    scales = [stress_scale(state, state.whole) for state in states.values()]
+    norm = Normalize(min(scale.vmin for scale in scales), max(scale.vmax for scale in scales))
     panels = []
     for (name, state), place in zip(states.items(), list(grid)[: 2 * PANEL_ROWS], strict=False):
-        axes = figure.add_subplot(place)
+        panels.append(figure.add_subplot(place))
         note = (notes or {}).get(name, "")
-        field = _draw_compound(axes, name, state, window, norm, note)
-        panels.append(axes)
-    figure.colorbar(
-        field, ax=panels, label=r"$\sigma_y$ [N/mm²]", extend="both", aspect=40, pad=0.01
-    )
+        field = _draw_compound(panels[-1], name, state, window, norm, note)
+    bar = {"label": r"$\sigma_y$ [N/mm²]", "extend": "both", "aspect": 40, "pad": 0.01}
+    figure.colorbar(field, ax=panels, **bar)
     _draw_contours(figure.add_subplot(grid[PANEL_ROWS, :]), states, window)
     return figure
 
@@ -133,14 +135,3 @@ def _draw_contours(axes: Axes, states: dict[str, BlockState], window: Window) ->
     axes.legend(handles=handles, loc="center", bbox_to_anchor=(0.45, 0.5), fontsize=6.5)
     axes.set(xlabel="$x$ in the platen's frame [mm]", ylabel="$y$ [mm]")
     axes.set_title("Deformed contours (dotted: undeformed)")
-
-
-def _common_window(states: dict[str, BlockState]) -> Window:
-    windows = np.array([state.whole for state in states.values()])
-    low, high = windows.min(axis=0), windows.max(axis=0)
-    return (float(low[0]), float(high[1]), float(low[2]), float(high[3]))
-
-
-def _common_scale(states: dict[str, BlockState]) -> Normalize:
-    scales = [stress_scale(state, state.whole) for state in states.values()]
-    return Normalize(min(scale.vmin for scale in scales), max(scale.vmax for scale in scales))

@@ -9,7 +9,7 @@ untouched, they stay.
 import hashlib
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -113,9 +113,6 @@ def _fingerprint(inputs: tuple[str, ...]) -> str:
 
 @cache
 def _program_fingerprint() -> str:
-    return program_version() + fingerprint(_sources(), _PACKAGES)
-
-
-def _sources() -> Iterator[Path]:
-    for folder in _FOLDERS:
-        yield from (path for path in sorted(folder.rglob("*")) if path.suffix in _SUFFIXES)
+    files = (path for folder in _FOLDERS for path in sorted(folder.rglob("*")))
+    sources = (path for path in files if path.suffix in _SUFFIXES)
+    return program_version() + fingerprint(sources, _PACKAGES)

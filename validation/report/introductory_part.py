@@ -31,15 +31,9 @@ HEADLINES = 6
 
 @dataclass(frozen=True, kw_only=True)
 class IntroductoryRun:
-    """Results of the introductory example.
+    """Results of the introductory example, each with name, value and unit.
 
-    Attributes
-    ----------
-    results : tuple of (name, value, unit)
-    status : str
-        With the reason if it is not "ok".
-    program : str
-        Program that computed it; "unknown" if the run does not say.
+    `status` has the reason if it is not "ok"; `program` is "unknown" if the run does not say.
     """
 
     results: tuple[tuple[str, str, str], ...]

@@ -42,13 +42,7 @@ class _Line:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw a bar per case in three panels that share their lines.
-
-    Parameters
-    ----------
-    table : DataFrame
-        From `validation.sensitivity.table.sensitivity_table`.
-    """
+    """Draw a bar per case of the study's table in three panels that share their lines."""
     lines = _lines(by_influence(table))
     figure = new_figure(PAGE_WIDTH, _AROUND_MM + _ROW_MM * len(lines))
     panels = figure.subplots(1, len(PANELS), sharey=True)
@@ -56,7 +50,10 @@ def draw(table: pd.DataFrame) -> Figure:
         _draw_panel(axes, lines, column)
         axes.set_xlabel(title)
     panels[0].axvspan(-MEASURED_TO_K[1], MEASURED_TO_K[1], color="#EEEEEE", lw=0, zorder=0)
-    _label_lines(panels[0], lines)
+    panels[0].set_yticks(range(len(lines)), [line.text for line in lines], fontsize=7.0)
+    for label, line in zip(panels[0].get_yticklabels(), lines, strict=True):
+        if line.row is None:
+            label.set(fontweight="bold", color=COLOURS[line.group])
     base = table.iloc[0]
     figure.suptitle(_heading(base), fontsize=8.5, fontweight="bold", x=0.01, ha="left")
     note = f"grey band: ±{MEASURED_TO_K[1]:g} K, to which the paper's temperatures were measured"
@@ -149,14 +146,6 @@ def _say_where_it_stopped(axes: Axes, place: int, reached_mm: float) -> None:
     look = {"color": GREY, "fontsize": 6.0, "ha": "center", "va": "center"}
     box = {"fc": "white", "ec": "none", "pad": 0.8}
     axes.text(0.5, place, words, transform=axes.get_yaxis_transform(), bbox=box, **look)
-
-
-def _label_lines(axes: Axes, lines: list[_Line]) -> None:
-    axes.set_yticks(range(len(lines)), [line.text for line in lines], fontsize=7.0)
-    for label, line in zip(axes.get_yticklabels(), lines, strict=True):
-        if line.row is None:
-            label.set_fontweight("bold")
-            label.set_color(COLOURS[line.group])
 
 
 def _heading(base: pd.Series) -> str:

@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 
 from tests.validation.made_up_run import made_up_run
+from validation.paper.figures import TABLES, make_table
 from validation.paper.table4 import PAPER_N_PER_MM, force_table
-from validation.paper.tables import TABLES, make_table
 
 
 def test_table_3_holds_the_papers_numbers(tmp_path):

@@ -9,9 +9,8 @@ from html.parser import HTMLParser
 import pytest
 
 from tests.made_up_result import made_up_result
-from validation.paper.figures import FIGURES
+from validation.paper.figures import FIGURES, TABLES
 from validation.paper.introductory import introductory_case
-from validation.paper.tables import TABLES
 from validation.report import captions, page
 from validation.report.made_with import MadeWith, programs_of_runs
 from validation.report.page import find_page, render, tone, write_report
