@@ -12,21 +12,3 @@ from validation.calculix.export_deck import (
     slab_layers,
     write_deck,
 )
-
-__all__ = [
-    "PRESSING_TIME",
-    "CalculixError",
-    "DatTable",
-    "DeckOptions",
-    "Layers",
-    "calculix_program",
-    "deck_history",
-    "friction_remark",
-    "half_slab",
-    "input_deck",
-    "normal_stiffness",
-    "read_dat",
-    "run_calculix",
-    "slab_layers",
-    "write_deck",
-]

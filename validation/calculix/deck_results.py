@@ -32,10 +32,8 @@ class DatTable:
 
     Attributes
     ----------
-    quantity : str
-        E.g. ``displacements``, ``forces``, ``total force``.
-    set_name : str
-        Node or element set.
+    quantity, set_name : str
+        E.g. ``displacements`` or ``total force``, and the node or element set.
     time : float
         Total time of the deck.
     entities : tuple of int

@@ -151,13 +151,14 @@ def material_leaves_T_max(evidence: Evidence) -> Numbers:
 def load_has_the_lowest_peak(evidence: Evidence) -> Numbers:
     bars = {name: run for name, run in evidence.compounds.items() if name != MOONEY_RIVLIN}
     edge = {name: number(run, "T_edge_C") for name, run in bars.items()}
+    p = [shape.highest_pressure(run) for run in bars.values()]
     return {f"front_edge_{name}_C": value for name, value in edge.items()}, {
         "load_C": edge[LOAD],
         "lowest_of_the_others_C": min(T for name, T in edge.items() if name != LOAD),
         "edge": {label(name): value for name, value in edge.items()},
         "lowest": label(names_at_ends(edge)[0]),
         "reading": partial(_as_interior_maximum, bars),
-        "pressures": partial(_behind_the_peaks, bars, edge),
+        "pressures": {"ends": ends(p), "follows": rank_correlation(p, list(edge.values()))},
     }
 
 
@@ -330,12 +331,6 @@ def _as_interior_maximum(bars: dict[str, Result]) -> dict[str, Any]:
         "apart": high - low,
         "able": "less" if high - low < MEASURED_TO_K[0] else "not less",
     }
-
-
-def _behind_the_peaks(bars: dict[str, Result], edge: dict[str, float]) -> dict[str, Any]:
-    """How the peaks go with the pressure that makes them."""
-    p = [shape.highest_pressure(run) for run in bars.values()]
-    return {"ends": ends(p), "follows": rank_correlation(p, list(edge.values()))}
 
 
 def _coefficients(evidence: Evidence) -> dict[str, dict[str, float]]:

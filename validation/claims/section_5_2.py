@@ -94,7 +94,7 @@ def pressure_raises_T_max_when_fast(evidence: Evidence) -> Numbers:
 def pressure_matters_more_when_fast(evidence: Evidence) -> Numbers:
     sizes = {
         f"{v:g}": float(np.mean(np.abs(list(_pressure_changes(evidence, v).values()))))
-        for v in _velocities(evidence)
+        for v in sorted({point.velocity for point in evidence.pressures})
     }
     *slower, fastest = sizes.values()
     return {f"change_at_{v}_mm_per_s_K": size for v, size in sizes.items()}, {
@@ -162,10 +162,6 @@ def rigid_block(law: str, pressure: float) -> dict[str, Any]:
 def _gap(laws: dict[str, Result]) -> float:
     """T_max with Huemer's law less T_max with the exponential one [K]."""
     return number(laws[HUEMER], "T_max_C") - number(laws[EXPONENTIAL], "T_max_C")
-
-
-def _velocities(evidence: Evidence) -> list[float]:
-    return sorted({point.velocity for point in evidence.pressures})
 
 
 def _end_pressures(evidence: Evidence, velocity: float) -> tuple[float, float]:

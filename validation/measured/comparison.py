@@ -8,12 +8,7 @@ import pandas as pd
 from calibration.data import DataError
 from materials.arrays import IndexArray
 from validation.analysis import ACCEPTED_K, MEASURED_TO_K
-from validation.measured.matching import (
-    START_TOLERANCE_K,
-    TOLERANCES,
-    first_ambiguous,
-    matched,
-)
+from validation.measured.matching import START_TOLERANCE_K, TOLERANCES, matched
 from validation.measured.measurements import ALL_BLOCKS, QUANTITIES, Measurements, Profile
 
 #: Share of the block's length by which a profile may reach beyond its corners, and which it has
@@ -82,9 +77,10 @@ def compare(measurements: Measurements, runs: pd.DataFrame) -> Comparison:
 
 def _check_unique(measurements: Measurements, tests: IndexArray, found: pd.DataFrame) -> None:
     """Refuse a test that leaves open which of several velocities or pressures it had."""
-    at = first_ambiguous(measurements.points, tests, found)
-    if at is None:
+    repeated = pd.DataFrame({"test": tests, "variant": found["variant"].to_numpy()}).duplicated()
+    if not repeated.any():
         return
+    at = int(tests[np.argmax(repeated.to_numpy())])
     point, own = measurements.points.iloc[at], found[tests == at]
     doubled = own[own["variant"].duplicated(keep=False)]
     velocity = doubled.groupby("variant")["v_mm_per_s"].nunique().max() > 1

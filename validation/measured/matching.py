@@ -69,12 +69,3 @@ def _nearest_in_pressure(fits: BoolArray, points: pd.DataFrame, runs: pd.DataFra
         only[np.arange(len(own)), nearest] = own.any(axis=1)
         fits[:, columns] = np.where(with_pressure[:, None], only, own)
     return fits
-
-
-def first_ambiguous(points: pd.DataFrame, tests: IndexArray, found: pd.DataFrame) -> int | None:
-    """Position of the first test that fits several simulations of one variant; None if none does.
-
-    `tests` and `found` are the pairs of `matched`, `found` as rows of the simulations.
-    """
-    doubled = pd.DataFrame({"test": tests, "variant": found["variant"].to_numpy()}).duplicated()
-    return int(tests[np.argmax(doubled.to_numpy())]) if doubled.any() else None

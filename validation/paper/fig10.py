@@ -21,10 +21,10 @@ def make(directory: Path) -> Path:
 
 def profile_table(runs: list[StudyRun], columns: dict[str, str]) -> pd.DataFrame:
     """Temperature profiles of all runs below each other, told apart by columns of case keys."""
-    parts = []
-    for run in runs:
-        told_apart = {column: run[key] for column, key in columns.items()}
-        parts.append(run.result.surface[["X_mm", "T_C"]].assign(**told_apart))
+    parts = [
+        run.result.surface.assign(**{column: run[key] for column, key in columns.items()})
+        for run in runs
+    ]
     return pd.concat(parts, ignore_index=True)[[*columns, "X_mm", "T_C"]]
 
 

@@ -74,11 +74,9 @@ def extremes_table(states: dict[str, BlockState]) -> pd.DataFrame:
 
 def contour_table(states: dict[str, BlockState]) -> pd.DataFrame:
     """Deformed contours: the boundary nodes of every compound, in the order of the boundary."""
-    parts = []
-    for name, state in states.items():
-        x, y = contour(state).T
-        parts.append(pd.DataFrame({"compound": name, "x_mm": x, "y_mm": y}))
-    return pd.concat(parts, ignore_index=True)
+    columns = ["x_mm", "y_mm"]
+    parts = {name: pd.DataFrame(contour(state), columns=columns) for name, state in states.items()}
+    return pd.concat(parts, names=["compound"]).reset_index("compound").reset_index(drop=True)
 
 
 @styled
