@@ -62,13 +62,13 @@ def blocks_table(results: dict[str, Result]) -> pd.DataFrame:
     rows = []
     for name, result in results.items():
         work = float(result.history["friction_dissipation_mJ_per_mm"].iloc[-1])
+        force = result.summary["friction_force_N_per_mm"]
         wear = result.boundary.get("wear_depth_um")
         rows.append(
             {"block": name}
             | {key: result.summary.get(key) for key in COLUMNS}
             | {
-                "friction_force_per_block_N_per_mm": result.summary["friction_force_N_per_mm"]
-                / result.case.block.blocks,
+                "friction_force_per_block_N_per_mm": force / result.case.block.blocks,
                 "friction_work_mJ_per_mm": work,
                 "deepest_wear_um": float(wear.max()) if wear is not None else None,
                 "onset_stiffness_N_per_mm2": onset_stiffness(result.history),
@@ -109,12 +109,8 @@ def draw_curves(results: dict[str, Result]) -> Figure:
     for number, (axes, (name, result)) in enumerate(zip(pressures, results.items(), strict=True)):
         history, colour = result.history, f"C{number}"
         slide = history[history["sliding_distance_mm"] > 0.0]
-        force.plot(
-            slide["sliding_distance_mm"],
-            slide["friction_force_N_per_mm"] / result.case.block.blocks,
-            color=colour,
-            label=name,
-        )
+        per_block = slide["friction_force_N_per_mm"] / result.case.block.blocks
+        force.plot(slide["sliding_distance_mm"], per_block, color=colour, label=name)
         _draw_pressure(axes, result.boundary, name, colour)
     force.set(xlabel="platen motion [mm]", ylabel="force per block\n[N/mm]")
     force.legend(ncols=2, fontsize="small")

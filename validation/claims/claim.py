@@ -33,10 +33,8 @@ class Finding:
 
     Attributes
     ----------
-    ours : str
-        Our numbers with units, as a reader wants them.
-    values : mapping
-        The same numbers raw, under names that carry their units.
+    ours, values : str, mapping
+        Our numbers with units, as a reader wants them, and raw under names that carry their units.
     criterion : str
         When the claim holds, and where the threshold comes from.
     holds : bool or None

@@ -77,11 +77,8 @@ class Evidence:
         """Runs of Fig. 12 by compound, pressure and velocity, and friction law."""
         found: dict[Point, dict[str, Result]] = {}
         for run in self._study("pressures"):
-            point = Point(
-                run["rubber.compound"],
-                run["loading.mean_pressure_N_per_mm2"],
-                run["loading.velocity_mm_per_s"],
-            )
+            pressure = run["loading.mean_pressure_N_per_mm2"]
+            point = Point(run["rubber.compound"], pressure, run["loading.velocity_mm_per_s"])
             found.setdefault(point, {})[run["friction.law"]] = _result(run)
         return dict(sorted(found.items()))
 

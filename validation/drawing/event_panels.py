@@ -14,12 +14,7 @@ from matplotlib.figure import Figure
 
 from fem.files import replacing
 from fem.results import Result
-from validation.drawing.block_drawing import (
-    draw_outline,
-    draw_road,
-    draw_smooth,
-    set_window,
-)
+from validation.drawing.block_drawing import draw_outline, draw_road, draw_smooth, set_window
 from validation.drawing.style import (
     BLUE,
     GREY,

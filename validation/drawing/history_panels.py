@@ -52,9 +52,8 @@ def draw_surface_temperature(axes: Axes, surface: pd.DataFrame, T_max: float | N
     axes.plot(surface["X_mm"], surface["T_C"], color=VERMILLION)
     if T_max is not None:
         axes.axhline(T_max, color=GREY, lw=0.7, ls=":")
-        place, offset = (float(surface["X_mm"].min()), T_max), {"textcoords": "offset points"}
-        text = rf"$T_{{max}}$ = {T_max:.1f} °C"
-        axes.annotate(text, place, xytext=(4, 3), **offset, fontsize=7.5)
+        text, place = rf"$T_{{max}}$ = {T_max:.1f} °C", (float(surface["X_mm"].min()), T_max)
+        axes.annotate(text, place, xytext=(4, 3), textcoords="offset points", fontsize=7.5)
     _along_bottom(axes, surface, "$T$ [°C]")
 
 

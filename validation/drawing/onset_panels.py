@@ -1,5 +1,7 @@
 """The onset of sliding: force, stick and slip, and pressure over the platen's motion."""
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -72,14 +74,11 @@ def _draw_status(axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: I
         Patch(facecolor=colour, edgecolor=GREY, lw=0.5, label=name)
         for name, colour in STATUS_COLOURS.items()
     ]
-    axes.legend(
-        handles=handles, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 0.98), borderaxespad=0.0
-    )
+    place = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.98), "borderaxespad": 0.0}
+    axes.legend(handles=handles, ncols=3, **place)
 
 
-def _draw_pressure(
-    axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: IndexArray
-) -> object:
+def _draw_pressure(axes: Axes, motion: FloatArray, bottom: BottomHistory, steps: IndexArray) -> Any:
     pressure = bottom.pressure[steps]
     # The corner carries many times the mean: the scale ends where all but it is told apart.
     pressed = pressure[pressure > 0.0]

@@ -5,9 +5,7 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
-from fem.results import (
-    Result,
-)
+from fem.results import Result
 from validation.drawing.event_panels import draw_event, draw_pyrometer, draw_wear, write_animation
 from validation.drawing.history_panels import (
     draw_contact,

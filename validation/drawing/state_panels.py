@@ -49,10 +49,8 @@ def draw_fields(figure: Figure, rows: list[list[Axes]], state: BlockState) -> No
     """Draw as many of `PANELS` as there are rows: the whole block and its front edge."""
     whole, detail = state.whole, state.front(DETAIL_ASPECT)
     for (left, right), (panel, title, label, extend) in zip(rows, PANELS, strict=False):
-        for axes, window, inset, text in (
-            (left, whole, detail, title),
-            (right, detail, None, "Front edge"),
-        ):
+        views = ((left, whole, detail, title), (right, detail, None, "Front edge"))
+        for axes, window, inset, text in views:
             field = draw_panel(axes, panel, state, window, title=text, detail=inset)
             if field is not None and label is not None:
                 colour_bar(figure, axes, field, label, extend=extend)

@@ -198,8 +198,8 @@ def statistics(table: pd.DataFrame) -> pd.DataFrame:
 
 def _moments(part: pd.DataFrame, quantity: str) -> dict[str, float]:
     error, relative = part["error"].to_numpy(), part["relative_error"].to_numpy()
-    within = {limit: float(np.mean(np.abs(error) <= limit)) for limit in LIMITS_K}
-    is_temperature = quantity == "T_max_C"
+    shares = np.mean(np.abs(error) <= np.array(LIMITS_K)[:, None], axis=1).tolist()
+    within = {f"share_within_{limit:g}_K": s for limit, s in zip(LIMITS_K, shares, strict=True)}
     return {
         "n": len(error),
         "bias": float(error.mean()),
@@ -207,8 +207,5 @@ def _moments(part: pd.DataFrame, quantity: str) -> dict[str, float]:
         "largest_error": float(error[np.argmax(np.abs(error))]),
         "relative_bias": float(relative.mean()),
         "relative_rmse": float(np.sqrt(np.mean(relative**2))),
-        **{
-            f"share_within_{limit:g}_K": share if is_temperature else np.nan
-            for limit, share in within.items()
-        },
+        **(within if quantity == "T_max_C" else dict.fromkeys(within, np.nan)),
     }

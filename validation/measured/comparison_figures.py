@@ -7,16 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.drawing import (
-    BLACK,
-    CURVES,
-    DASHES,
-    GREY,
-    MARKERS,
-    PAGE_WIDTH,
-    new_figure,
-    styled,
-)
+from validation.drawing import BLACK, CURVES, DASHES, GREY, MARKERS, PAGE_WIDTH, new_figure, styled
 from validation.measured.comparison import LIMITS_K, Comparison
 from validation.measured.matching import matched
 from validation.measured.measurements import QUANTITIES, Measurements, Profile

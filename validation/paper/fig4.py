@@ -12,16 +12,7 @@ from matplotlib.figure import Figure
 from contact import FRICTION_LAWS, FrictionLaw, HuemerFriction
 from fem.files import write_table
 from materials.arrays import FloatArray
-from validation.drawing import (
-    BLACK,
-    CURVES,
-    GREY,
-    PAGE_WIDTH,
-    STRESS_MAP,
-    new_figure,
-    save,
-    styled,
-)
+from validation.drawing import BLACK, CURVES, GREY, PAGE_WIDTH, STRESS_MAP, new_figure, save, styled
 
 LAWS: dict[str, FrictionLaw] = {
     name: FRICTION_LAWS[name].kind() for name in ("exponential", "huemer")

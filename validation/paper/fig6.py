@@ -52,9 +52,8 @@ def make(directory: Path) -> Path:
 def fitted_curves(rig: HeatingRig, record: pd.DataFrame, found: FitResult) -> pd.DataFrame:
     """Readings of the model with the fitted conductance, same columns as the record."""
     data = read_heating_record(record, rig)
-    predict = RigPrediction(
-        rig=rig, model=RigModel(rig, data.heater), record=data, names=(CONDUCTANCE,)
-    )
+    model = RigModel(rig, data.heater)
+    predict = RigPrediction(rig=rig, model=model, record=data, names=(CONDUCTANCE,))
     readings = predict(np.array([found.values[CONDUCTANCE]])).reshape(len(data.time), -1)
     columns = {f"{name}_C": readings[:, i] for i, name in enumerate(data.names)}
     return pd.DataFrame({"time_s": data.time, **columns})
