@@ -113,6 +113,9 @@ def _fingerprint(inputs: tuple[str, ...]) -> str:
 
 @cache
 def _program_fingerprint() -> str:
+    return program_version() + fingerprint(_sources(), _PACKAGES)
+
+
+def _sources() -> list[Path]:
     files = (path for folder in _FOLDERS for path in sorted(folder.rglob("*")))
-    sources = (path for path in files if path.suffix in _SUFFIXES)
-    return program_version() + fingerprint(sources, _PACKAGES)
+    return [path for path in files if path.suffix in _SUFFIXES]
