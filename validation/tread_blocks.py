@@ -129,13 +129,13 @@ def _draw_pressure(axes: Axes, boundary: pd.DataFrame, name: str, colour: str) -
 
 def main(directory: str) -> None:
     """Write table and pictures of the runs of a study."""
-    folder = Path(directory)
 
-    def ornaments(result: Result) -> tuple[int, int, float]:
+    def features(result: Result) -> tuple[int, int, float]:
         block = result.case.block
         return block.blocks, len(block.sipes), block.chamfer_leading_mm
 
-    found = sorted(runs_in(folder), key=ornaments)
+    folder = Path(directory)
+    found = sorted(runs_in(folder), key=features)
     results = {described(result.case): result for result in found}
     table = blocks_table(results)
     write_table(folder / "blocks.csv", table)

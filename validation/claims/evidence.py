@@ -9,13 +9,13 @@ import pandas as pd
 
 from contact.friction import ExponentialFriction, HuemerFriction
 from fem.results import Result
-from fem.sweeps import StudyRun, study_runs
+from fem.sweeps import StudyRun
 from materials.compounds import COMPOUNDS
 from materials.hyperelastic import Hyperelastic
 from validation.drawing import reached
 from validation.paper import introductory_run
 from validation.slab import TABLE as SLABS
-from validation.studies import cases_of
+from validation.studies import runs_of
 
 EXPONENTIAL, HUEMER = "exponential", "huemer"
 LAWS = (EXPONENTIAL, HUEMER)
@@ -109,7 +109,7 @@ class Evidence:
         return self._study("claims")
 
     def _study(self, name: str) -> list[StudyRun]:
-        return study_runs(cases_of(name), self.directory)
+        return runs_of(name, self.directory)
 
 
 def finished(result: Result, name: str) -> Result:

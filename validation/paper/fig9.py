@@ -126,7 +126,7 @@ def _draw_contours(axes: Axes, states: dict[str, BlockState], window: Window) ->
         style = {"color": look.colour, "ls": look.dash, "label": look.label}
         axes.plot(*contour(state).T, **style, lw=1.0)
         handles.append(Line2D([], [], **style, lw=1.2))
-    X, Y = state.geometry.points.T
+    X, Y = next(iter(states.values())).geometry.points.T
     box = [(X.min(), Y.max()), (X.min(), 0.0), (X.max(), 0.0), (X.max(), Y.max())]
     axes.plot(*zip(*box, strict=True), color=BLACK, lw=0.5, ls=":")
     set_window(axes, window)

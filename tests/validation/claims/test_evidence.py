@@ -27,11 +27,12 @@ def evidence(tmp_path_factory) -> Iterator[Evidence]:
 
     result = made_up_result()
 
-    def runs(cases, directory):
-        return [replace(made_up_run(), study_case=case, result=result) for case in cases]
+    def runs(study, directory):
+        made_up = made_up_run()
+        return [replace(made_up, study_case=case, result=result) for case in cases_of(study)]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("validation.claims.evidence.study_runs", runs)
+        patch.setattr("validation.claims.evidence.runs_of", runs)
         yield Evidence(tmp_path_factory.mktemp("figures"))
 
 
