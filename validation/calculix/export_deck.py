@@ -82,7 +82,7 @@ def input_deck(case: Case, options: DeckOptions | None = None) -> str:
     Parameters
     ----------
     case : Case
-        The case; its rubber must have a Yeoh, Mooney-Rivlin or neo-Hookean energy.
+        The case; its rubber must have a Yeoh, Mooney-Rivlin, neo-Hookean or Ogden energy.
     options : DeckOptions, optional
 
     Returns

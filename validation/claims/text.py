@@ -9,8 +9,8 @@ from validation.claims.ledger import counts
 _WIDTH = 100
 _FIELDS = ("computed", "ours", "criterion", "explanation", "experiment")
 _HEADING = (
-    "What the paper says in sections 2.1, 4.2, 5.1, 5.2 and 6, in other words, and what comes out "
-    "here. Every verdict is a comparison of the numbers shown."
+    "What the paper says in sections 2.1, 4.1, 4.2, 5.1, 5.2 and 6, in other words, and what comes "
+    "out here. Every verdict is a comparison of the numbers shown."
 )
 
 
