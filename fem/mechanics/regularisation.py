@@ -3,7 +3,7 @@
 Under high friction the leading edge rolls under in snaps: at a limit point no equilibrium is near,
 and the edge jumps to the next one. A step without a solution is solved again with a Kelvin-Voigt
 stress ``S = eta (E - E_n)/dt`` that carries the jump; its strength, the *level*, rises with each
-failure (`fem.stepping.step_control`). The step is then solved without, from there
+failure (`fem.stepping.step_control`). The step is then relaxed until nothing of it is left
 (`fem.stepping.relaxation`). Steps that have a solution see none of it.
 
 The relaxation time is stated as a sliding distance, so that the damping acts alike at all

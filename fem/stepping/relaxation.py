@@ -1,16 +1,13 @@
 """Relaxation of a damped step, until as little damping as can be is left.
 
 A snap that damping carries takes as long as the damping: at the leading edge, millimetres of
-sliding, in which forces are those of the damping. So a damped step is solved again without, from
-its damped solution: that is next to the equilibrium that the snap leads to. Where there is none,
-the same damping once more, counted from the last solution, takes the block on its way (a step of a
-continuation in pseudo-time), and leaves the rest to the next steps; the first few of these do not
-try without again. What the snap releases on the way is in none of the forces at the end of the
-step; the audit takes it from the balance of the step (`snap_share`).
-
-Damping that dissipates a thousandth of the work of a step is left alone: forces are as good as
-without, and the step that follows gets through. To relax to a ten-thousandth, and in quarters of
-the damping, takes a quarter more iterations and gives the same results.
+sliding, in which forces are those of the damping. So a damped step is solved again and again, each
+time with a quarter of the damping and from its last solution, from which the strains of the damping
+count too: a continuation in pseudo-time to the equilibrium that the snap leads to, within the same
+step. Where a quarter has no solution, the same damping once more takes the block on its way, and
+leaves the rest to the next steps; the first few of these do not try a quarter again. What the snap
+releases on the way is in none of the forces at the end of the step; the audit takes it from the
+balance of the step (`snap_share`).
 
 References
 ----------
@@ -26,15 +23,17 @@ from typing import NamedTuple
 from fem.stepping.coupled_state import AcceptedStep, RejectedStep
 from fem.stepping.coupled_step import CoupledModel
 
+#: Factor of the damping from one solution to the next; with a half it takes a third more of them.
+EASING = 0.25
+#: Level below which the next solution is without damping.
+LAST_LEVEL = 0.01
 #: Share of the work of a step that its damping may dissipate without being relaxed [-].
-NEGLIGIBLE = 1e-3
-#: Share of it up to which a step may keep its damping without a try without [-].
-TOLERABLE = 2e-2
+NEGLIGIBLE = 1e-4
+#: Share of it up to which a step may keep its damping without a try with less [-].
+TOLERABLE = 2e-3
 #: Factor of the level from one step to the next where its damping is negligible.
 FADING = 0.85
-#: Level below which the next step is not damped.
-LAST_LEVEL = 0.01
-#: Steps that keep the damping after one that found no solution without.
+#: Steps that keep the damping after one that found no solution with less.
 REST = 4
 #: How often a step keeps its damping for another solution: while the road moves on the next steps
 #: take what is left; a block that is lifted off would leave the road before its shear is released.
@@ -69,24 +68,25 @@ def relaxed(
     damping : Damping
         That of the next step.
     """
-    level, rest = damping.level, max(damping.rest - 1, 0)
-    if _takes_at_most(NEGLIGIBLE, step):
-        return step, _faded(level, rest)
-    tries = damping.rest == 0 or not _takes_at_most(TOLERABLE, step)
-    iterations = step.iterations
-    for _ in range(HOLDS if step.target.sweep else HOLDS_AT_REST):
-        if tries:
-            attempt = model.advance(step.before, step.target, 0.0, guess=step)
-            iterations += attempt.iterations
-            if isinstance(attempt, AcceptedStep):
-                return replace(attempt, iterations=iterations, relaxed=True), Damping(0.0, rest)
-            rest = REST
-        attempt = model.advance(step.before, step.target, level, guess=step)
-        iterations += attempt.iterations
-        if isinstance(attempt, RejectedStep):
-            break
-        step, tries = attempt, True
-    return replace(step, iterations=iterations, relaxed=True), Damping(level, rest)
+    level, rest, holds = damping.level, max(damping.rest - 1, 0), 0
+    holds_max = HOLDS if step.target.sweep else HOLDS_AT_REST
+    eases = damping.rest == 0 or not _takes_at_most(TOLERABLE, step)
+    iterations, again = step.iterations, False
+    while level > 0.0 and not _takes_at_most(NEGLIGIBLE, step):
+        other = _lowered(level, EASING) if eases else level
+        attempt = model.advance(step.before, step.target, other, guess=step)
+        iterations, again = iterations + attempt.iterations, True
+        if isinstance(attempt, AcceptedStep):
+            step, level = attempt, other
+        elif eases:
+            eases, rest = False, REST
+            continue
+        if not eases:
+            holds, eases = holds + 1, True
+            if holds == holds_max or isinstance(attempt, RejectedStep):
+                return replace(step, iterations=iterations, relaxed=again), Damping(level, rest)
+    left = Damping(_lowered(level, FADING), rest)
+    return replace(step, iterations=iterations, relaxed=again), left
 
 
 def _takes_at_most(share: float, step: AcceptedStep) -> bool:
@@ -95,6 +95,6 @@ def _takes_at_most(share: float, step: AcceptedStep) -> bool:
     return step.energies.viscous <= share * abs(work)
 
 
-def _faded(level: float, rest: int) -> Damping:
-    """Damping of the step after one whose damping was negligible; none if it is weak."""
-    return Damping(FADING * level if FADING * level >= LAST_LEVEL else 0.0, rest)
+def _lowered(level: float, factor: float) -> float:
+    """Level of damping times a factor, 0 for none."""
+    return factor * level if factor * level >= LAST_LEVEL else 0.0

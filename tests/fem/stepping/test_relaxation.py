@@ -14,6 +14,7 @@ from fem.stepping.relaxation import (
     FADING,
     HOLDS_AT_REST,
     LAST_LEVEL,
+    NEGLIGIBLE,
     REST,
     TOLERABLE,
     Damping,
@@ -62,18 +63,17 @@ def sliding(pressed):
     return model, step.after, target
 
 
-def test_where_an_undamped_solution_exists_relaxation_ends_in_it(sliding):
+def test_where_an_undamped_solution_exists_relaxation_ends_next_to_it(sliding):
     model, state, target = sliding
     damped, elastic = model.advance(state, target, 4.0), model.advance(state, target)
     step, (level, _) = relaxed(model, damped, Damping(4.0))
     forces = [s.after.contact.friction_force for s in (damped, elastic, step)]
-    assert level == 0.0
-    assert step.problem.load.damping is None
-    assert step.energies.viscous == 0.0
+    assert level < 0.1
+    assert step.energies.viscous <= NEGLIGIBLE * forces[2] * target.sweep
     assert abs(forces[0] - forces[1]) > 0.05 * forces[1]
-    assert forces[2] == pytest.approx(forces[1], rel=1e-6)
+    assert forces[2] == pytest.approx(forces[1], rel=10.0 * NEGLIGIBLE)
     np.testing.assert_allclose(
-        step.after.mechanics.u, elastic.after.mechanics.u, atol=1e-6 * target.sweep
+        step.after.mechanics.u, elastic.after.mechanics.u, atol=1e-2 * target.sweep
     )
 
 
@@ -102,30 +102,30 @@ def test_relaxation_ends_where_there_is_no_solution_and_counts_what_it_cost(slid
     damped = model.advance(state, target, 4.0)
     stubborn = Stubborn(model)
     step, (level, rest) = relaxed(stubborn, damped, Damping(4.0))
-    # without in vain, and the same as before once more
-    assert stubborn.levels == [0.0, 4.0]
-    assert (level, rest) == (4.0, REST)
+    # a quarter, a quarter of that in vain, and the same as before once more
+    assert stubborn.levels == [1.0, 0.25, 1.0]
+    assert (level, rest) == (1.0, REST)
     assert step.problem.load.damping is not None
     assert step.iterations > damped.iterations + FAILED.iterations
 
 
 @pytest.fixture(scope="module")
 def nearly_elastic(sliding):
-    """A step whose damping takes a hundredth of its work."""
+    """A step whose damping takes a thousandth of its work."""
     model, state, target = sliding
     damped = model.advance(state, target, 4.0)
     work = damped.after.contact.friction_force * target.sweep
     return replace(damped, energies=replace(damped.energies, viscous=0.5 * TOLERABLE * work))
 
 
-def test_steps_after_a_try_in_vain_keep_their_damping_for_a_while(sliding, nearly_elastic):
+def test_steps_after_a_quarter_in_vain_keep_their_damping_for_a_while(sliding, nearly_elastic):
     stubborn = Stubborn(sliding[0])
     _, damping = relaxed(stubborn, nearly_elastic, Damping(1.0, REST))
     assert stubborn.levels == [1.0]
     assert damping == Damping(1.0, REST - 1)
     stubborn.levels.clear()
     _, damping = relaxed(stubborn, nearly_elastic, Damping(1.0, 0))
-    assert stubborn.levels == [0.0, 1.0]
+    assert stubborn.levels == [0.25, 1.0]
     assert damping == Damping(1.0, REST)
 
 
@@ -133,7 +133,7 @@ def test_damping_that_takes_more_than_a_little_of_the_work_gets_no_rest(sliding)
     model, state, target = sliding
     damped, stubborn = model.advance(state, target, 4.0), Stubborn(model)
     relaxed(stubborn, damped, Damping(4.0, REST))
-    assert stubborn.levels == [0.0, 4.0]
+    assert stubborn.levels == [1.0, 0.25, 1.0]
 
 
 def test_a_block_at_rest_keeps_its_damping_for_more_solutions_before_it_goes_on(sliding):
@@ -141,16 +141,16 @@ def test_a_block_at_rest_keeps_its_damping_for_more_solutions_before_it_goes_on(
     damped, stubborn = model.advance(state, target, 4.0), Stubborn(model)
     still = replace(damped, target=replace(target, sweep=0.0))
     _, (level, _) = relaxed(stubborn, still, Damping(1.0))
-    assert stubborn.levels == HOLDS_AT_REST * [0.0, 1.0]
+    assert stubborn.levels == HOLDS_AT_REST * [0.25, 1.0]
     assert level == 1.0
 
 
-def test_damping_that_has_faded_away_is_none(sliding):
+def test_the_last_solution_has_no_damping_at_all(sliding):
     model, state, target = sliding
     weak = model.advance(state, target, LAST_LEVEL)
-    slack = replace(weak, energies=replace(weak.energies, viscous=0.0))
-    _, left = relaxed(model, slack, Damping(LAST_LEVEL))
-    assert left == Damping(0.0)
+    step, left = relaxed(model, weak, Damping(LAST_LEVEL))
+    assert left.level == 0.0
+    assert step.problem.load.damping is None
 
 
 def test_a_step_that_needed_no_damping_releases_nothing_in_the_audit(pressed):
