@@ -1,20 +1,23 @@
 """Fit of an elastic law with softening to first and later cycles."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from calibration.data import DataError
-from calibration.fitting import FitResult, Loss, Problem, check_stability, fit, minimise, stage
+from calibration.fitting import FitResult, Loss, Problem, fit, minimise, stage
 from calibration.memory.histories import Histories, read_histories
-from calibration.rubber import STRESS_MODELS, Kinematics, StressModel, check_modulus, fitted_energy
+from calibration.rubber import (
+    STRESS_MODELS,
+    Kinematics,
+    StressModel,
+    completed_rubber,
+    fitted_energy,
+)
 from fem.files import version_of
 from materials.arrays import BoolArray, FloatArray
 from materials.hyperelastic_base import Mode
-from materials.rubber import Rubber
 from materials.softening import OgdenRoxburgh
 
 NAMES = ("r", "m", "beta")
@@ -154,12 +157,11 @@ def _require_way_back(data: Histories) -> None:
     back = _on_the_way_back(data) & data.compared
     if np.count_nonzero(back) >= _LEAST_ROWS:
         return
-    raise DataError(
-        file=data.table.file,
-        row=int(data.table.rows[-1]),
-        column="stretch",
-        found=f"{np.count_nonzero(back)} rows below an earlier, larger strain",
-        expected=f"at least {_LEAST_ROWS}: unloading and later cycles, in the order of recording",
+    data.table.refuse_at(
+        -1,
+        "stretch",
+        f"{np.count_nonzero(back)} rows below an earlier, larger strain",
+        f"at least {_LEAST_ROWS}: unloading and later cycles, in the order of recording",
     )
 
 
@@ -180,35 +182,28 @@ def _levels(data: Histories) -> int:
 
 def _completed(law: StressModel, model: str, data: Histories, result: FitResult) -> FitResult:
     stage("checks of the fit")
-    values = {name: result.values[name] for name in law.names}
     energy = fitted_energy(law, result, model, data.table.file)
     softening = OgdenRoxburgh(**{name: result.values[name] for name in NAMES})
-    stability = check_stability(energy, data.points.window)
     levels = _levels(data)
     more: tuple[str, ...] = ()
     if levels < 2 and "beta" in result.names:
         more = ("one level of strain: m and beta act alike there, hold beta (--fix beta=0)",)
+    about = {
+        "kind": "mullins",
+        "model": model,
+        **data.about,
+        "levels": levels,
+        "rmse_of_largest_stress": result.rmse / float(np.abs(result.observed).max()),
+        "version": version_of(),
+    }
     keys = {"r": softening.r, "m_N_per_mm2": softening.m, "beta": softening.beta}
-    window = {"largest_stretch": data.points.largest_stretch}
-    return replace(
+    return completed_rubber(
         result,
-        model=Rubber(elastic=energy, damage=softening),
-        metadata={
-            "kind": "mullins",
-            "model": model,
-            **data.table.origin,
-            **data.about,
-            "levels": levels,
-            "rmse_of_largest_stress": result.rmse / float(np.abs(result.observed).max()),
-            "version": version_of(),
-            "stability": stability,
-        },
-        section={"rubber": {**law.section(model, values), "mullins": keys, "window": window}},
-        warnings=(
-            *result.warnings,
-            *more,
-            *check_modulus(data.table, energy),
-            *stability.warnings,
-            *stability.elsewhere,
-        ),
+        law,
+        energy,
+        data.points,
+        about,
+        memory={"damage": softening},
+        keys={"mullins": keys},
+        warnings=more,
     )

@@ -73,10 +73,6 @@ class MemoryCurve:
     observed: FloatArray
     weights: FloatArray | None = None
 
-    def nodes(self) -> FloatArray:
-        """Grid of logarithmic relaxation times over what the observations can tell."""
-        return log_grid(self.tau_s)
-
 
 def log_grid(tau_s: tuple[float, float]) -> FloatArray:
     """Natural logarithms of relaxation times between two, evenly spread."""
@@ -206,7 +202,7 @@ def _candidate(
 
 def _on_grid(curve: MemoryCurve) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Slow parameters, moduli over the slow one and logarithmic times from the grid."""
-    nodes = curve.nodes()
+    nodes = log_grid(curve.tau_s)
     response = curve.branch(nodes)[0]
     fits = [_non_negative(curve, start, response) for start in curve.starts]
     slow, moduli, _ = min(fits, key=lambda one: one[2])

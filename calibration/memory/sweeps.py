@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from calibration.data import DataError, Table, read_table
+from calibration.data import Table, read_table
 from calibration.fitting import FitResult, Loss, Problem, fit, minimise, refuse_no_fit
 from calibration.memory.spectrum import Candidate, MemoryCurve, candidates, memory_problem
 from calibration.memory.viscoelastic import (
@@ -144,18 +144,12 @@ def _moduli(source: Table, curve: pd.DataFrame, T_ref_C: float, prefix: str) -> 
 
 
 def fit_sweeps(
-    table: pd.DataFrame | str | Path | Moduli,
-    *,
-    branches: int | None = None,
-    loss: Loss = "linear",
-    noise: float = 0.05,
-    **options: Any,
+    data: Moduli, *, branches: int | None = None, loss: Loss = "linear", noise: float = 0.05
 ) -> FitResult:
     """Fit a slow modulus and branches to storage and loss moduli, all relative to their size.
 
     See `calibration.fit_viscoelastic` for the parameters; the result's model is the spectrum.
     """
-    data = table if isinstance(table, Moduli) else read_moduli(table, **options)
     data, found, best, independent = _searched(data, branches)
     result = fit(shifted_problem(data, best.count), _start(data, best), loss=loss, noise=noise)
     refuse_no_fit(result, data.table.file, MODULUS)
@@ -275,8 +269,7 @@ def _refuse_no_plateau(result: FitResult, data: Moduli) -> None:
     value, error = result.values[SLOW], result.stderr[SLOW]
     if np.isfinite(error) and error < 0.5 * value:
         return
-    raise DataError(
-        file=data.table.file,
+    data.table.refuse(
         column=MODULUS if data.storage is not None else LOSS,
         found=f"no rubbery plateau (slow modulus {value:.3g} +- {error:.2g} N/mm^2)",
         expected="sweeps that reach the plateau at low frequencies or high temperatures",

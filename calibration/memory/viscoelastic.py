@@ -1,17 +1,15 @@
 """Fit of an elastic law with Maxwell branches to stress histories."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-import pandas as pd
 
 from calibration.data import DataError
-from calibration.fitting import FitResult, Loss, check_stability, fit, stage
-from calibration.memory.histories import Histories, branch_responses, read_histories, time_range
+from calibration.fitting import FitResult, Loss, fit, stage
+from calibration.memory.histories import Histories, branch_responses, time_range
 from calibration.memory.spectrum import (
     Candidate,
     MemoryCurve,
@@ -20,12 +18,16 @@ from calibration.memory.spectrum import (
     fewest,
     memory_problem,
 )
-from calibration.rubber import STRESS_MODELS, Kinematics, StressModel, check_modulus, fitted_energy
+from calibration.rubber import (
+    STRESS_MODELS,
+    Kinematics,
+    StressModel,
+    completed_rubber,
+    fitted_energy,
+)
 from fem.files import version_of
 from materials.arrays import FloatArray
-from materials.hyperelastic_base import Mode
 from materials.prony import Prony
-from materials.rubber import Rubber
 from materials.wlf import WLF
 
 Weighting = Literal["equal", "tests"]
@@ -105,12 +107,10 @@ def _is_modulus(name: str) -> bool:
 
 
 def fit_histories(
-    table: pd.DataFrame | str | Path | Histories,
+    data: Histories,
     model: str = "yeoh",
     *,
     branches: int | None = None,
-    mode: Mode = "uniaxial",
-    from_cycle: int | None = None,
     shift: WLF | None = None,
     T_ref_C: float = 20.0,
     weights: Weighting = "equal",
@@ -132,9 +132,6 @@ def fit_histories(
     unknown = sorted(set(held) - set(law.names))
     if unknown:
         raise ValueError(f"fixed holds {unknown[0]}; expected some of {', '.join(law.names)}")
-    data = table
-    if not isinstance(data, Histories):
-        data = read_histories(data, mode=mode, from_cycle=from_cycle)
     work = HistoryFit(
         law=law, model=model, data=data, shift=shift, T_ref_C=T_ref_C, weights=weights
     )
@@ -225,38 +222,29 @@ def correlation_warnings(independent: float) -> tuple[str, ...]:
 def _completed(work: HistoryFit, result: FitResult, found: dict[str, Any]) -> FitResult:
     data, law = work.data, work.law
     stage("checks of the fit")
-    slow = {name: result.values[name] for name in law.names}
     energy = fitted_energy(law, result, work.model, data.table.file)
     g, tau = spectrum_of(result, found["branches"])
     prony = Prony(g=g, tau_s=tau, shift=work.shift, T_ref_C=work.T_ref_C)
-    stability = check_stability(energy, data.points.window)
     independent = found.pop("independent")
-    metadata = {
+    about = {
         "kind": "viscoelastic",
         "model": work.model,
-        **data.table.origin,
         **data.about,
         "weights": work.weights,
         "version": version_of(),
         **found,
         "rmse_of_largest_stress": result.rmse / float(np.abs(result.observed).max()),
-        "stability": stability,
     }
-    metadata["notes"] = [*metadata["notes"], *_temperature_notes(work)]
-    window = {"largest_stretch": data.points.largest_stretch}
-    keys = {**law.section(work.model, slow), "viscoelastic": viscoelastic_keys(prony)}
-    return replace(
+    about["notes"] = [*about["notes"], *_temperature_notes(work)]
+    return completed_rubber(
         result,
-        model=Rubber(elastic=energy, viscous=prony),
-        metadata=metadata,
-        section={"rubber": {**keys, "window": window}},
-        warnings=(
-            *result.warnings,
-            *correlation_warnings(independent),
-            *check_modulus(data.table, energy),
-            *stability.warnings,
-            *stability.elsewhere,
-        ),
+        law,
+        energy,
+        data.points,
+        about,
+        memory={"viscous": prony},
+        keys={"viscoelastic": viscoelastic_keys(prony)},
+        warnings=correlation_warnings(independent),
     )
 
 

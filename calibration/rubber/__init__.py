@@ -1,7 +1,12 @@
 """Fits of hyperelastic energies to stress-stretch tests."""
 
 from calibration.rubber.cycles import last_full_cycle
-from calibration.rubber.hyperelastic import CHOICES, compare_models, fit_hyperelastic
+from calibration.rubber.hyperelastic import (
+    CHOICES,
+    compare_models,
+    completed_rubber,
+    fit_hyperelastic,
+)
 from calibration.rubber.stress_checks import (
     STRESS,
     check_modulus,

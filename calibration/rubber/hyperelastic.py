@@ -14,7 +14,6 @@ from typing import Any, Literal
 import numpy as np
 import pandas as pd
 
-from calibration.data import DataError
 from calibration.fitting import FitResult, Loss, Problem, Stability, check_stability, fit, stage
 from calibration.rubber.cycles import Branch
 from calibration.rubber.stress_checks import check_modulus, fitted_energy
@@ -23,6 +22,8 @@ from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressMo
 from calibration.rubber.stress_zero import Zero
 from fem.files import version_of
 from materials.arrays import FloatArray, IndexArray
+from materials.hyperelastic_base import Hyperelastic
+from materials.rubber import Rubber
 
 Weighting = Literal["equal", "modes", "relative"]
 
@@ -107,7 +108,15 @@ def fit_hyperelastic(
     result = fit(problem, begin, fixed=held, loss=loss, noise=noise_N_per_mm2)
     if not law.admissible(result.values):
         result = _narrowed(result, law, problem, kin, begin, held, loss, noise_N_per_mm2)
-    return _completed(result, model, law, data, weights)
+    energy = fitted_energy(law, result, model, data.table.file)
+    about = {
+        "kind": "hyperelastic",
+        "model": model,
+        **data.selection,
+        "weights": weights,
+        "version": version_of(),
+    }
+    return completed_rubber(result, law, energy, data, about)
 
 
 def _narrowed(
@@ -205,12 +214,11 @@ def _require_points(
         points = np.unique(data.stretch[data.mode == name])
         telling += int(np.count_nonzero(points != 1.0))  # the undeformed state tells nothing
     if telling < free:
-        raise DataError(
-            file=data.table.file,
-            row=int(data.table.rows[-1]),
-            column="stretch",
-            found=f"{telling} different point{'' if telling == 1 else 's'}",
-            expected=f"at least {free} for the {free} parameters of {model}",
+        data.table.refuse_at(
+            -1,
+            "stretch",
+            f"{telling} different point{'' if telling == 1 else 's'}",
+            f"at least {free} for the {free} parameters of {model}",
         )
 
 
@@ -226,31 +234,46 @@ def _weights(data: StressData, kind: Weighting) -> FloatArray | None:
     raise ValueError(f"weights is {kind!r}; expected equal, modes or relative")
 
 
-def _completed(
-    result: FitResult, model: str, law: StressModel, data: StressData, weights: Weighting
+def completed_rubber(
+    result: FitResult,
+    law: StressModel,
+    energy: Hyperelastic,
+    data: StressData,
+    about: Mapping[str, Any],
+    *,
+    memory: Mapping[str, Any] | None = None,
+    keys: Mapping[str, Any] | None = None,
+    warnings: Sequence[str] = (),
 ) -> FitResult:
-    values = result.values
-    energy = fitted_energy(law, result, model, data.table.file)
+    """The result of a fit of a rubber with its law, section and origin, and what to know of it.
+
+    Parameters
+    ----------
+    about : mapping
+        Kind, model and the rest of the metadata; the origin of the data follows the model.
+    memory, keys : mapping, optional
+        Branches or damage of the rubber, and the keys of its section that take them.
+    warnings : sequence of str
+        Told between those of the fit and those of the energy.
+    """
     modulus = check_modulus(data.table, energy)
     stability = check_stability(energy, data.window)
-    metadata = {
-        "kind": "hyperelastic",
-        "model": model,
-        **data.table.origin,
-        **data.selection,
-        "weights": weights,
-        "version": version_of(),
-        "stability": stability,
+    first = {key: about[key] for key in ("kind", "model")}
+    section = {
+        **law.section(about["model"], result.values),
+        **(keys or {}),
+        "window": {"largest_stretch": data.largest_stretch},
     }
     return replace(
         result,
-        model=energy,
-        metadata=metadata,
-        section={
-            "rubber": {
-                **law.section(model, values),
-                "window": {"largest_stretch": data.largest_stretch},
-            }
-        },
-        warnings=(*result.warnings, *modulus, *stability.warnings, *stability.elsewhere),
+        model=Rubber(elastic=energy, **memory) if memory else energy,
+        metadata={**first, **data.table.origin, **about, "stability": stability},
+        section={"rubber": section},
+        warnings=(
+            *result.warnings,
+            *warnings,
+            *modulus,
+            *stability.warnings,
+            *stability.elsewhere,
+        ),
     )

@@ -104,12 +104,8 @@ def check_modulus(used: Table, energy: Hyperelastic) -> tuple[str, ...]:
         return ()
     if not finding.impossible:
         return (f"shear modulus {finding.sentence}",)
-    raise DataError(
-        file=used.file,
-        column=STRESS,
-        found=f"stresses with the shear modulus {finding.found}",
-        expected=finding.expected,
-    )
+    found = f"stresses with the shear modulus {finding.found}"
+    used.refuse(column=STRESS, found=found, expected=finding.expected)
 
 
 def fitted_energy(law: StressModel, result: FitResult, model: str, file: str) -> Hyperelastic:

@@ -26,6 +26,7 @@ from materials.arrays import FloatArray, IndexArray, WordArray
 from materials.hyperelastic import (
     MODES,
     ArrudaBoyce,
+    Hyperelastic,
     MooneyRivlin,
     NeoHooke,
     VanDerWaals,
@@ -77,6 +78,11 @@ class StressModel(ABC):
     """Nominal stress of one hyperelastic model as a function of its parameters."""
 
     names: tuple[str, ...]
+    #: Bounds of the parameters, where the data do not move them.
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+    #: Class of the energy, which takes the parameters by name.
+    energy: type[Hyperelastic]
     linear = False
     #: Parameters that are held unless the user frees them.
     held: dict[str, float] = {}  # noqa: RUF012
@@ -89,9 +95,9 @@ class StressModel(ABC):
     def jacobian(self, theta: FloatArray, kin: Kinematics) -> FloatArray:
         """Derivatives (n, k) of the stress with respect to the parameters."""
 
-    @abstractmethod
     def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         """Lower and upper bounds (k,) of the parameters."""
+        return np.array(self.lower), np.array(self.upper)
 
     @abstractmethod
     def starts(
@@ -99,9 +105,9 @@ class StressModel(ABC):
     ) -> FloatArray:
         """Starting points (count, k) for the stresses P (n,)."""
 
-    @abstractmethod
     def build(self, values: dict[str, float]) -> Any:
         """Model object with the parameters."""
+        return self.energy(**values)
 
     def section(self, model: str, values: dict[str, float]) -> dict[str, Any]:
         """Keys of the [rubber] section that take the parameters."""
@@ -144,27 +150,21 @@ class _LinearModel(StressModel):
 
 
 class NeoHookeStress(_LinearModel):
-    names = ("G",)
+    names, lower, upper = ("G",), (1e-9,), (np.inf,)
+    energy = NeoHooke
 
     def columns(self, kin: Kinematics) -> tuple[FloatArray, ...]:
         return (0.5 * kin.k1,)
 
-    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
-        return np.array([1e-9]), np.array([np.inf])
-
-    def build(self, values: dict[str, float]) -> NeoHooke:
-        return NeoHooke(**values)
-
 
 class MooneyRivlinStress(_LinearModel):
     names = ("C10", "C01")
+    # Either constant may be negative as long as the shear modulus is not.
+    lower, upper = (-np.inf, -np.inf), (np.inf, np.inf)
+    energy = MooneyRivlin
 
     def columns(self, kin: Kinematics) -> tuple[FloatArray, ...]:
         return kin.k1, kin.k2
-
-    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
-        # Either constant may be negative as long as the shear modulus is not.
-        return np.full(2, -np.inf), np.full(2, np.inf)
 
     def admissible(self, values: dict[str, float]) -> bool:
         return values["C10"] + values["C01"] > 0.0
@@ -172,22 +172,15 @@ class MooneyRivlinStress(_LinearModel):
     def narrow_bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         return np.array([1e-9, 0.0]), np.full(2, np.inf)
 
-    def build(self, values: dict[str, float]) -> MooneyRivlin:
-        return MooneyRivlin(**values)
-
 
 class YeohStress(_LinearModel):
     names = ("C10", "C20", "C30")
+    lower, upper = (1e-9, -np.inf, -np.inf), (np.inf, np.inf, np.inf)
+    energy = Yeoh
 
     def columns(self, kin: Kinematics) -> tuple[FloatArray, ...]:
         x = kin.I1b - 3.0
         return kin.k1, 2.0 * x * kin.k1, 3.0 * x * x * kin.k1
-
-    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
-        return np.array([1e-9, -np.inf, -np.inf]), np.full(3, np.inf)
-
-    def build(self, values: dict[str, float]) -> Yeoh:
-        return Yeoh(**values)
 
 
 class VanDerWaalsStress(StressModel):
@@ -197,6 +190,7 @@ class VanDerWaalsStress(StressModel):
     """
 
     names = ("G", "lambda_m", "a", "beta")
+    energy = VanDerWaals
     held = {"beta": 0.0}  # noqa: RUF012
 
     def _parts(self, theta: FloatArray, kin: Kinematics) -> tuple[FloatArray, ...]:
@@ -243,12 +237,11 @@ class VanDerWaalsStress(StressModel):
             points.append([max(G, 1e-6), lambda_m, Ga / G if G > 0.0 else 0.1, 0.1])
         return np.array(points)
 
-    def build(self, values: dict[str, float]) -> VanDerWaals:
-        return VanDerWaals(**values)
-
 
 class ArrudaBoyceStress(StressModel):
     names = ("C1", "lambda_m")
+    lower, upper = (1e-9, 1.0 + 1e-6), (np.inf, 1e3)
+    energy = ArrudaBoyce
 
     def _slopes(self, q: float, I1b: FloatArray) -> tuple[FloatArray, FloatArray]:
         """dW/dI1b for C1 = 1 and its derivative with respect to ``q = lambda_m^-2``."""
@@ -267,9 +260,6 @@ class ArrudaBoyceStress(StressModel):
         slope, slope_q = self._slopes(theta[1] ** -2, kin.I1b)
         return kin.k1[:, None] * np.stack([slope, -2.0 * theta[0] * theta[1] ** -3 * slope_q], 1)
 
-    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
-        return np.array([1e-9, 1.0 + 1e-6]), np.array([np.inf, 1e3])
-
     def starts(
         self, kin: Kinematics, P: FloatArray, count: int, rng: np.random.Generator
     ) -> FloatArray:
@@ -278,9 +268,6 @@ class ArrudaBoyceStress(StressModel):
             column = kin.k1 * self._slopes(lambda_m**-2, kin.I1b)[0]
             points.append([max(float(column @ P) / float(column @ column), 1e-6), lambda_m])
         return np.array(points)
-
-    def build(self, values: dict[str, float]) -> ArrudaBoyce:
-        return ArrudaBoyce(**values)
 
 
 class OgdenStress(StressModel):
@@ -292,6 +279,7 @@ class OgdenStress(StressModel):
     def __init__(self, terms: int) -> None:
         self.terms = terms
         self.names = tuple(f"{kind}{i}" for i in range(1, terms + 1) for kind in ("mu", "alpha"))
+        self.lower, self.upper = (0.0, -30.0) * terms, (np.inf, 30.0) * terms
 
     def _terms(self, alpha: FloatArray, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
         """Stress (n, terms) for mu = 1, and its derivative with respect to alpha."""
@@ -311,9 +299,6 @@ class OgdenStress(StressModel):
         J[:, 0::2] = P
         J[:, 1::2] = theta[0::2] * P_alpha
         return J
-
-    def bounds(self, kin: Kinematics) -> tuple[FloatArray, FloatArray]:
-        return np.tile([0.0, -30.0], self.terms), np.tile([np.inf, 30.0], self.terms)
 
     def starts(
         self, kin: Kinematics, P: FloatArray, count: int, rng: np.random.Generator
