@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from calibration.conductance import HeatingRecord
-from calibration.fitting import FitResult
+from calibration.fitting import FitResult, evenly_spread
 from calibration.friction import FrictionData
 from calibration.memory import Histories, Moduli
 from calibration.rubber import StressData
@@ -139,7 +139,7 @@ def plot_friction(result: FitResult, data: FrictionData) -> Figure:
 
 def _shown(count: int) -> IndexArray:
     """Which of so many points are drawn: all, or some evenly spread; more cannot be told apart."""
-    return np.unique(np.linspace(0, count - 1, min(count, _MOST_DOTS)).round().astype(np.intp))
+    return evenly_spread(count, _MOST_DOTS)
 
 
 def _groups(p: FloatArray) -> FloatArray:

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from calibration.data import DataError, LeftOut, Table, left_out, read_table
-from calibration.fitting import FitResult, Problem, fit
+from calibration.fitting import FitResult, Problem, evenly_spread, fit
 from calibration.shifting import MasterCurve, is_sweep_table, shift_sweeps
 from fem.files import version_of
 from materials.arrays import FloatArray, IntArray
@@ -109,8 +109,7 @@ def fit_wlf(
     if not isinstance(table, ShiftFactors):
         options = {"window": window, "other_sign": other_sign, **shifting}
         table = read_shift_factors(table, T_ref_C=T_ref_C, **options)
-    data = table
-    T, log_aT = data.T, data.log_aT
+    data, T, log_aT = table, table.T, table.log_aT
     reference = float(T[np.argmin(np.abs(log_aT))]) if T_ref_C is None else float(T_ref_C)
     _require_factors(data, reference)
     result = _fitted(T - reference, log_aT)
@@ -131,12 +130,9 @@ def fit_wlf(
         "wlf_T_ref_C": reference,
         "window": {"T_C": [float(T.min()), float(T.max())]},
     }
+    warnings = (*result.warnings, *_glass_warnings(data, wlf, reference))
     return replace(
-        result,
-        model=wlf,
-        metadata=metadata,
-        section={"friction": section},
-        warnings=(*result.warnings, *_glass_warnings(data, wlf, reference)),
+        result, model=wlf, metadata=metadata, section={"friction": section}, warnings=warnings
     )
 
 
@@ -149,18 +145,17 @@ def read_shift_factors(
     **shifting: Any,
 ) -> ShiftFactors:
     """Read shift factors, or find them by shifting sweeps (see `fit_wlf`)."""
-    nothing = np.empty(0, dtype=np.int64)
+    source, master, rows = None, None, np.empty(0, dtype=np.int64)
     if isinstance(table, MasterCurve):
-        source, master = None, table
+        master = table
     else:
-        source, master = read_table(table, ("T_C",)), None
+        source = read_table(table, ("T_C",))
         if is_sweep_table(source):
             master = shift_sweeps(source, T_ref_C, **shifting)
     if master is not None:
         if other_sign:
             raise ValueError("other_sign is set for sweeps; expected it for shift factors only")
         T, log_aT = (master.shifts[name].to_numpy(dtype=float) for name in SHIFT_COLUMNS)
-        rows = nothing
     else:
         assert source is not None
         T, log_aT, rows = source.numbers("T_C"), _logarithms(source), source.rows
@@ -176,7 +171,7 @@ def read_shift_factors(
     return ShiftFactors(
         T=T[keep],
         log_aT=-log_aT[keep] if other_sign else log_aT[keep],
-        rows=rows[keep] if rows.size else nothing,
+        rows=rows[keep] if rows.size else rows,
         out=out,
         source=source,
         master=master,
@@ -193,17 +188,17 @@ def _logarithms(source: Table) -> FloatArray:
 
 
 def _about_rows(data: ShiftFactors) -> dict[str, Any]:
-    about: dict[str, Any] = {"rows_left_out": [str(entry) for entry in data.out]}
+    about = {"rows_left_out": [str(entry) for entry in data.out]}
     if data.master is None:
         return {"rows_used": data.T.size, **about}
-    shifts, curve = data.master.shifts, data.master.curve
+    curve = data.master.curve
     frequency = curve["frequency_Hz"]
     return {
         "rows_used": len(curve),
         **about,
         "frequency_window_Hz": [float(frequency.min()), float(frequency.max())],
         "vertical_shift": data.master.vertical,
-        "b_T": shifts["b_T"].tolist(),
+        "b_T": data.master.shifts["b_T"].tolist(),
         "overlap_error_decades": data.master.overlap_error,
         "notes": list(data.master.notes),
     }
@@ -222,17 +217,15 @@ def _require_factors(data: ShiftFactors, reference: float) -> None:
     slope = float(np.polyfit(T, log_aT, 1)[0])
     if slope <= 0.0 or data.master is not None:
         return
-    found = f"factors that rise with temperature ({slope:.3g} decades per K)"
     try:
-        turned = _fitted(T - reference, -log_aT)
-        values = turned.values
+        values = _fitted(T - reference, -log_aT).values
         hint = f": d1 = {values['d1']:.2f}, d2 = {values['d2_K']:.2f} K at {reference:g} deg C"
     except ValueError:
         hint = ""
     raise DataError(
         file=data.file,
         column="log10_aT",
-        found=found,
+        found=f"factors that rise with temperature ({slope:.3g} decades per K)",
         expected="factors that fall; these have the other sign convention, 1/a_T "
         f"(--other-sign{hint})",
     )
@@ -278,17 +271,15 @@ def _glass_warnings(data: ShiftFactors, wlf: WLF, reference: float) -> tuple[str
 
 
 def _fitted(dT: FloatArray, log_aT: FloatArray) -> FitResult:
-    problem = _wlf_problem(dT, log_aT)
+    pole = max(float(-dT.min()), 0.0) + _POLE_DISTANCE_K
+    problem = replace(
+        _wlf_problem(dT, log_aT, pole),
+        subset=lambda rows: _wlf_problem(dT[rows], log_aT[rows], pole),
+    )
     return fit(problem, _wlf_starts(problem, dT, log_aT))
 
 
-def _wlf_problem(dT: FloatArray, log_aT: FloatArray) -> Problem:
-    pole = max(float(-dT.min()), 0.0) + _POLE_DISTANCE_K
-    whole = _wlf_problem_at(dT, log_aT, pole)
-    return replace(whole, subset=lambda rows: _wlf_problem_at(dT[rows], log_aT[rows], pole))
-
-
-def _wlf_problem_at(dT: FloatArray, log_aT: FloatArray, pole: float) -> Problem:
+def _wlf_problem(dT: FloatArray, log_aT: FloatArray, pole: float) -> Problem:
     def predict(theta: FloatArray) -> FloatArray:
         d1, d2, offset = theta
         return np.asarray(offset - d1 * dT / (d2 + dT))
@@ -311,7 +302,7 @@ def _wlf_problem_at(dT: FloatArray, log_aT: FloatArray, pole: float) -> Problem:
 def _wlf_starts(problem: Problem, dT: FloatArray, log_aT: FloatArray) -> FloatArray:
     """For a given d2 the shift is linear in d1 and the offset."""
     points = []
-    few = np.linspace(0, dT.size - 1, min(dT.size, 2_000)).round().astype(np.intp)
+    few = evenly_spread(dT.size, 2_000)
     dT, log_aT = dT[few], log_aT[few]
     for d2 in problem.lower[1] + np.geomspace(5.0, 2000.0, 12):
         columns = np.stack([-dT / (d2 + dT), np.ones_like(dT)], axis=1)

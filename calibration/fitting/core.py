@@ -18,10 +18,10 @@ from calibration.data import DataError
 from calibration.fitting.minimum import minimise
 from calibration.fitting.problem import Loss, Problem
 from calibration.fitting.uncertainty import correlation_of, uncertainty
+from fem.files import write_text
 from materials.arrays import FloatArray
 
 __all__ = ["FitResult", "Loss", "Problem", "correlation_of", "fit", "refuse_no_fit"]
-
 
 LEAST_R2 = 0.1  # a curve that explains less of the data's scatter is none,
 CONSTANT = 0.1  # where that scatter is more than this share of the data
@@ -153,9 +153,12 @@ class FitResult:
 
     def to_toml(self, path: str | Path) -> Path:
         """Write the parameter file that a case file refers to (``parameters = "..."``)."""
-        from calibration.fitting.parameter_file import write_parameter_file
+        from calibration.fitting.parameter_file import parameter_text
 
-        return write_parameter_file(self, path)
+        path = Path(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_text(path, parameter_text(self))
+        return path
 
     @property
     def _freedom(self) -> float:

@@ -10,10 +10,10 @@ from scipy import optimize
 
 from calibration.fitting.problem import Loss, Problem
 from calibration.fitting.progress import evaluated
-from materials.arrays import FloatArray
+from materials.arrays import FloatArray, IndexArray
 
 _ENOUGH_TO_SEARCH = 300  # points that the starts are compared on when there are more
-_STAGES = (20_000,)  # points that the best one is refined on before all
+_ENOUGH_TO_REFINE = 20_000  # points that the best one is refined on before all
 _TALL = 5_000  # rows from which a factorisation without Q is the faster solution
 _ARRIVED = 1e-9  # share of the sum of squares that another step may promise at a minimum
 _MOST_PASSES, _MOST_DAMPINGS = 10, 8  # over all rows, and tries of a shorter step in each
@@ -38,10 +38,9 @@ def minimise(
     small = thinned(problem, _ENOUGH_TO_SEARCH)
     found = _searched(small, inside, loss, noise)
     best = _lowest([_local(small, start, loss, noise) for start in _distinct(found)])
-    for rows in _STAGES:
-        larger = thinned(problem, rows)
-        if larger.observed.size > small.observed.size:
-            small, best = larger, _lowest([_local(larger, best.x, loss, noise)])
+    larger = thinned(problem, _ENOUGH_TO_REFINE)
+    if larger.observed.size > small.observed.size:
+        small, best = larger, _lowest([_local(larger, best.x, loss, noise)])
     if small.observed.size < problem.observed.size:
         best = _finished(problem, best, loss, noise)
     best.tried = len(inside)
@@ -103,8 +102,7 @@ def _levenberg_marquardt(problem: Problem, x: FloatArray) -> tuple[FloatArray, F
     for _ in range(_MOST_PASSES):
         evaluated()
         J = problem.slopes(x)
-        scale = np.linalg.norm(J, axis=0)
-        scale[scale == 0.0] = 1.0  # a parameter without influence stays
+        scale = column_sizes(J)
         R = np.asarray(np.linalg.qr(np.column_stack([J / scale, r]), mode="r"))
         A, q = R[:k, :k], R[:k, k]
         if 0.5 * float(q @ q) <= _ARRIVED * cost + nothing:
@@ -128,11 +126,10 @@ def _levenberg_marquardt(problem: Problem, x: FloatArray) -> tuple[FloatArray, F
     return x, r, False
 
 
-def _scaled_step(J: FloatArray, r: FloatArray) -> FloatArray:
-    """Gauss-Newton step; a parameter without influence stays."""
+def column_sizes(J: FloatArray) -> FloatArray:
+    """Norms of the columns to scale them by; one for a parameter without influence, which stays."""
     scale = np.linalg.norm(J, axis=0)
-    scale[scale == 0.0] = 1.0
-    return np.asarray(-least_squares_solution(J / scale, r) / scale)
+    return np.asarray(np.where(scale == 0.0, 1.0, scale))
 
 
 def _lowest(results: list[optimize.OptimizeResult | None]) -> optimize.OptimizeResult:
@@ -147,7 +144,12 @@ def thinned(problem: Problem, rows: int) -> Problem:
     n = problem.observed.size
     if problem.subset is None or n <= rows:
         return problem
-    return problem.subset(np.linspace(0, n - 1, rows).round().astype(np.intp))
+    return problem.subset(evenly_spread(n, rows))
+
+
+def evenly_spread(n: int, most: int) -> IndexArray:
+    """Indices of all of n rows, or of as many as asked for that are spread evenly over them."""
+    return np.linspace(0, n - 1, min(n, most)).round().astype(np.intp)
 
 
 def least_squares_solution(J: FloatArray, r: FloatArray) -> FloatArray:
@@ -156,6 +158,11 @@ def least_squares_solution(J: FloatArray, r: FloatArray) -> FloatArray:
         R = np.asarray(np.linalg.qr(np.column_stack([J, r]), mode="r"))
         J, r = R[:-1, :-1], R[:-1, -1]
     return np.asarray(np.linalg.lstsq(J, r, rcond=None)[0])
+
+
+def _scaled_solution(J: FloatArray, r: FloatArray) -> FloatArray:
+    scale = column_sizes(J)
+    return least_squares_solution(J / scale, r) / scale
 
 
 def _searched(
@@ -172,10 +179,7 @@ def _searched(
 
 def _solve_linear(problem: Problem) -> optimize.OptimizeResult | None:
     origin = np.zeros(len(problem.names))
-    J = problem.slopes(origin)
-    scale = np.linalg.norm(J, axis=0)
-    scale[scale == 0.0] = 1.0
-    theta = least_squares_solution(J / scale, -problem.residuals(origin)) / scale
+    theta = -_scaled_solution(problem.slopes(origin), problem.residuals(origin))
     if np.any(theta < problem.lower) or np.any(theta > problem.upper):
         return None  # a bound is active: leave it to the iterative solver
     r = problem.residuals(theta)
@@ -231,8 +235,7 @@ def _local(
 def _polished(problem: Problem, best: optimize.OptimizeResult) -> optimize.OptimizeResult:
     """Gauss-Newton steps to the last digits, which the trust region's tolerances leave open."""
     for _ in range(20):
-        step = _scaled_step(problem.slopes(best.x), best.fun)
-        trial = best.x + step
+        trial = best.x - _scaled_solution(problem.slopes(best.x), best.fun)
         if np.any(trial <= problem.lower) or np.any(trial >= problem.upper):
             return best
         with np.errstate(all="ignore"):

@@ -16,15 +16,6 @@ import numpy as np
 
 from calibration.fitting.core import FitResult
 from calibration.fitting.stability import Stability
-from fem.files import write_text
-
-
-def write_parameter_file(result: FitResult, path: str | Path) -> Path:
-    """Write the parameters of a fit with their origin; the file appears whole or not at all."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_text(path, parameter_text(result))
-    return path
 
 
 def parameter_text(result: FitResult) -> str:
@@ -37,10 +28,8 @@ def parameter_text(result: FitResult) -> str:
     lines += _table("fit", _provenance(result))
     lines += _table("fit.values", result.values)
     lines += _table("fit.stderr", result.stderr)
-    lines += _table(
-        "fit.covariance",
-        {"names": list(result.names), "matrix": np.asarray(result.covariance).tolist()},
-    )
+    matrix = np.asarray(result.covariance).tolist()
+    lines += _table("fit.covariance", {"names": list(result.names), "matrix": matrix})
     return "\n".join(lines)
 
 

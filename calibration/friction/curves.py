@@ -6,7 +6,7 @@ parameters are unique and come out in the paper's scale.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -24,6 +24,8 @@ class FrictionCurve(ABC):
     names: tuple[str, ...]
     lower: tuple[float, ...]
     upper: tuple[float, ...]
+    #: Class of the law, which takes the parameters by name.
+    kind: Callable[..., FrictionLaw]
 
     def with_scale(self, fixed: dict[str, float]) -> dict[str, float]:
         """Parameters to hold so that the others are unique."""
@@ -39,12 +41,13 @@ class FrictionCurve(ABC):
     def starts(self, p: FloatArray, v: FloatArray, mu: FloatArray, count: int) -> FloatArray:
         """Starting points (count, k)."""
 
-    @abstractmethod
     def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
         """The law with the parameters."""
+        return self.kind(**values, **floors)
 
 
 class _Exponential(FrictionCurve):
+    kind = ExponentialFriction
     names = ("A", "B", "C")
     lower = (1e-9, -5.0, -5.0)
     upper = (np.inf, 5.0, 5.0)
@@ -63,13 +66,11 @@ class _Exponential(FrictionCurve):
         lnA, B, C = np.linalg.lstsq(columns, np.log(mu[known]), rcond=None)[0]
         return np.array([[np.exp(lnA), B, C]])
 
-    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
-        return ExponentialFriction(**values, **floors)
-
 
 class _Huemer(FrictionCurve):
     """The starts spread n and 1/m; for given ones the law is a linear problem in the others."""
 
+    kind = HuemerFriction
     names = ("alpha", "beta", "n", "inverse_m", "a", "b", "c")
     lower = (0.0, -np.inf, -1.0, 0.01, 1e-9, -np.inf, 0.0)
     upper = (np.inf, np.inf, 3.0, 2.0, np.inf, np.inf, np.inf)
@@ -89,19 +90,9 @@ class _Huemer(FrictionCurve):
         mu = (alpha * power + beta) * inverse
         fall = -mu * inverse
         by_s = fall * (b + 2.0 * c * s) * s
-        J = np.stack(
-            [
-                power * inverse,
-                inverse,
-                alpha * power * log_p * inverse,
-                -by_s * log_v,
-                fall,
-                fall * s,
-                fall * s * s,
-            ],
-            axis=1,
-        )
-        return mu, J, -inverse_m * by_s
+        by_alpha, by_n = power * inverse, alpha * power * log_p * inverse
+        J = [by_alpha, inverse, by_n, -by_s * log_v, fall, fall * s, fall * s * s]
+        return mu, np.stack(J, axis=1), -inverse_m * by_s
 
     def starts(self, p: FloatArray, v: FloatArray, mu: FloatArray, count: int) -> FloatArray:
         a = HUEMER_SCALE
@@ -117,15 +108,12 @@ class _Huemer(FrictionCurve):
                 points.append([max(alpha, 0.01), beta, n, inverse_m, a, b, c])
         return np.array(points)
 
-    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
-        return HuemerFriction(**values, **floors)
-
 
 class _AnyLaw(FrictionCurve):
     """A law by its class alone: differences for the derivatives, starts about its defaults."""
 
     def __init__(self, law: RegisteredLaw) -> None:
-        self.law = law
+        self.law, self.kind = law, law.kind
         self.names = tuple(one.name for one in law.parameters)
         self.lower = tuple(one.low for one in law.parameters)
         self.upper = tuple(one.high for one in law.parameters)
@@ -154,10 +142,6 @@ class _AnyLaw(FrictionCurve):
         spread = np.vstack([np.zeros(middle.size), spread])
         points = np.where(middle == 0.0, 0.1 * spread, middle * np.exp(spread))
         return np.clip(points, self.lower, self.upper)
-
-    def build(self, values: Mapping[str, float], **floors: float) -> FrictionLaw:
-        law: FrictionLaw = self.law.kind(**values, **floors)
-        return law
 
     def _mu(self, theta: FloatArray, p: FloatArray, v: FloatArray) -> FloatArray:
         values = dict(zip(self.names, map(float, theta), strict=True))

@@ -16,10 +16,18 @@ import numpy as np
 import pandas as pd
 
 from calibration.data import DataError
-from calibration.fitting import FitResult, Loss, Problem, fit, refuse_no_fit, stage
+from calibration.fitting import (
+    FitResult,
+    Loss,
+    Problem,
+    evenly_spread,
+    fit,
+    refuse_no_fit,
+    stage,
+)
 from calibration.friction.curves import HUEMER_SCALE, FrictionCurve, forms
 from calibration.friction.data import FrictionData, read_friction
-from contact.friction import FrictionLaw, ThermalFriction, shifted
+from contact.friction import FrictionLaw, shifted
 from fem.files import version_of
 from materials.arrays import FloatArray
 from materials.wlf import WLF
@@ -84,16 +92,15 @@ def fit_friction(
     data, form = read_friction(table), forms()[law]
     held = form.with_scale(dict(fixed or {}))
     _require_data(data, form, law, wlf, held)
-    fit_shift = wlf == "fit"
-    problem = _problem(form, data, wlf, T_ref_C)
-    n = data.mu.size
-    few = np.unique(np.linspace(0, n - 1, min(n, _POINTS_OF_THE_STARTS)).round().astype(np.intp))
-    begin = _starts(form, data.at(few), wlf, T_ref_C, starts)
+    problem = _problem(form, data, wlf, T_ref_C, data.coldest)
+    few = data.at(evenly_spread(data.mu.size, _POINTS_OF_THE_STARTS))
+    begin = _starts(form, few, wlf, T_ref_C, starts)
     if law == "huemer":
         begin[:, _SCALED] *= held.get("a", HUEMER_SCALE) / HUEMER_SCALE
     result = fit(problem, begin, fixed=held, loss=loss, noise=noise)
-    shift = _wlf_of(result.values) if fit_shift else wlf
-    return _completed(result, law, form, data, shift if isinstance(shift, WLF) else None, T_ref_C)
+    if wlf == "fit":
+        wlf = WLF(d1=result.values["d1"], d2_K=result.values["d2_K"])
+    return _completed(result, law, form, data, wlf, T_ref_C)
 
 
 def _require_data(
@@ -112,23 +119,11 @@ def _require_data(
         )
 
 
-def _problem(form: FrictionCurve, data: FrictionData, wlf: Any, T_ref_C: float) -> Problem:
-    return replace(
-        _problem_at(form, data, wlf, T_ref_C),
-        subset=lambda rows: _problem_at(form, data.at(rows), wlf, T_ref_C, whole=data),
-    )
-
-
-def _problem_at(
-    form: FrictionCurve,
-    data: FrictionData,
-    wlf: Any,
-    T_ref_C: float,
-    whole: FrictionData | None = None,
+def _problem(
+    form: FrictionCurve, data: FrictionData, wlf: Any, T_ref_C: float, coldest: float
 ) -> Problem:
     names, lower, upper = form.names, tuple(form.lower), tuple(form.upper)
     if wlf == "fit":
-        coldest = (data if whole is None else whole).coldest
         pole = max(T_ref_C - coldest, 0.0) + 5.0  # keeps every temperature 5 K above the pole
         names, lower, upper = (*names, "d1", "d2_K"), (*lower, 1e-3, pole), (*upper, 1e3, 1e4)
         curve: _Curve = _shifting_curve(form, data, T_ref_C)
@@ -141,6 +136,7 @@ def _problem_at(
         jacobian=lambda theta: curve(theta)[1],
         lower=np.array(lower),
         upper=np.array(upper),
+        subset=lambda rows: _problem(form, data.at(rows), wlf, T_ref_C, coldest),
     )
 
 
@@ -183,10 +179,6 @@ def _starts(
     return np.concatenate(points)
 
 
-def _wlf_of(values: Mapping[str, float]) -> WLF:
-    return WLF(d1=values["d1"], d2_K=values["d2_K"])
-
-
 def _completed(
     result: FitResult,
     law: str,
@@ -199,7 +191,12 @@ def _completed(
     own = {name: result.values[name] for name in form.names}
     speed = _shifted_speed(data, wlf, T_ref_C)
     floors = _floors(data, speed)
-    friction = _law_of(partial(form.build, own, **floors), wlf, T_ref_C, law, data.table.file)
+    try:
+        friction = shifted(form.build(own, **floors), wlf, T_ref_C)
+    except ValueError as error:
+        found = f"data whose best {law} fit is no admissible law ({error})"
+        expected = "friction over a wider range of speed and pressure, or another law"
+        raise DataError(file=data.table.file, found=found, expected=expected) from None
     section = {
         "law": law,
         **own,
@@ -226,17 +223,6 @@ def _completed(
         section={"friction": section},
         warnings=(*result.warnings, *_data_warnings(data, wlf), *negative),
     )
-
-
-def _law_of(
-    build: Callable[[], FrictionLaw], wlf: WLF | None, T_ref_C: float, law: str, file: str
-) -> ThermalFriction:
-    try:
-        return shifted(build(), wlf, T_ref_C)
-    except ValueError as error:
-        found = f"data whose best {law} fit is no admissible law ({error})"
-        expected = "friction over a wider range of speed and pressure, or another law"
-        raise DataError(file=file, found=found, expected=expected) from None
 
 
 def _shift_keys(data: FrictionData, wlf: WLF | None, T_ref_C: float) -> dict[str, float]:
@@ -341,13 +327,7 @@ def compare_laws(
     ]
     nothing = dict.fromkeys(("rmse", "r2", "aic", "mu_largest_difference"), np.nan)
     rows += [
-        {
-            "law": law,
-            "parameters": len(forms()[law].names),
-            "n_data": 0,
-            **nothing,
-            "reason": reason,
-        }
-        for law, reason in refused.items()
+        {"law": law, "parameters": len(forms()[law].names), "n_data": 0, **nothing, "reason": why}
+        for law, why in refused.items()
     ]
     return pd.DataFrame(rows).sort_values("aic", na_position="last").reset_index(drop=True)

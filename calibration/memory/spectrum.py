@@ -23,7 +23,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import nnls
 
-from calibration.fitting import Problem, minimise, stage
+from calibration.fitting import Problem, column_sizes, minimise, stage
 from materials.arrays import BoolArray, FloatArray
 
 NODES_PER_DECADE = 12
@@ -227,8 +227,7 @@ def _non_negative(
     columns = slopes if linear else curve.slow(start)[:, None]
     w = np.ones_like(observed) if curve.weights is None else curve.weights
     A = w[:, None] * np.hstack([columns, -columns, response])
-    scale = np.linalg.norm(A, axis=0)
-    scale[scale == 0.0] = 1.0
+    scale = column_sizes(A)
     R = np.asarray(np.linalg.qr(np.column_stack([A / scale, w * observed]), mode="r"))
     x, misfit = nnls(R[:, :-1], R[:, -1], maxiter=50 * A.shape[1])
     x = x / scale

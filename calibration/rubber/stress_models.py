@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import nnls
 
+from calibration.fitting import evenly_spread
 from fem.case import CONSTANTS
 from materials.arrays import FloatArray, IndexArray, WordArray
 from materials.hyperelastic import (
@@ -308,7 +309,7 @@ class OgdenStress(StressModel):
         For given exponents the moduli are a small linear problem with mu >= 0, so the grid costs
         little; its spacing follows the largest strain, over which ``lam^alpha`` must not explode.
         """
-        few = np.linspace(0, P.size - 1, min(P.size, _POINTS_OF_THE_GRID)).round().astype(int)
+        few = evenly_spread(P.size, _POINTS_OF_THE_GRID)
         fewer, stress = kin.at(few), P[few]
         strain = np.abs(np.log(fewer.lam)).max() * max(1.0, float(fewer.transverse.max()))
         largest = min(25.0, max(6.0, 10.0 / max(strain, 0.1)))
