@@ -278,26 +278,24 @@ def _finite(text: str) -> float:
     return value
 
 
-def _positive(text: str) -> float:
-    value = _finite(text)
-    if value <= 0.0:
-        raise argparse.ArgumentTypeError(f"found {text}, expected a number above 0")
-    return value
+def _number(valid: Callable[[float], bool], expected: str) -> Callable[[str], float]:
+    """Reader of a finite number that must be valid besides."""
+
+    def read(text: str) -> float:
+        value = _finite(text)
+        if not valid(value):
+            raise argparse.ArgumentTypeError(f"found {text}, expected {expected}")
+        return value
+
+    return read
 
 
-def _not_negative(text: str) -> float:
-    value = _finite(text)
-    if value < 0.0:
-        raise argparse.ArgumentTypeError(f"found {text}, expected 0 or more")
-    return value
-
-
-def _celsius(text: str) -> float:
-    value = _finite(text)
-    if value <= ABSOLUTE_ZERO_C:
-        expected = f"a temperature above absolute zero, {ABSOLUTE_ZERO_C} deg C"
-        raise argparse.ArgumentTypeError(f"found {text}, expected {expected}")
-    return value
+_positive = _number(lambda value: value > 0.0, "a number above 0")
+_not_negative = _number(lambda value: value >= 0.0, "0 or more")
+_celsius = _number(
+    lambda value: value > ABSOLUTE_ZERO_C,
+    f"a temperature above absolute zero, {ABSOLUTE_ZERO_C} deg C",
+)
 
 
 def _cycle(text: str) -> str | int:

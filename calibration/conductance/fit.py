@@ -135,11 +135,9 @@ def _check_thermocouples(table: Table, rig: HeatingRig, names: tuple[str, ...]) 
 def _drive(table: Table, heater: Heater, start_C: float) -> FloatArray:
     column = HEATER_COLUMNS[heater]
     values = table.numbers(column)
-    if heater == "temperature":
-        if np.abs(values - start_C).max() < 1.0:
-            table.refuse(column=column, found="a heater that stays cold", expected="heating")
-        return values
-    if not values.any():
+    if heater == "temperature" and np.abs(values - start_C).max() < 1.0:
+        table.refuse(column=column, found="a heater that stays cold", expected="heating")
+    if heater == "power" and not values.any():
         table.refuse(column=column, found="no power in any row", expected="heating")
     return values
 
@@ -236,30 +234,18 @@ def fit_conductance(
     names = (CONDUCTANCE, *ambient, *(name for name in ALSO if name in also))
     record.table.require_rows(len(names) + 1, f"{len(names)} parameters")
     predict = RigPrediction(rig=rig, model=RigModel(rig, record.heater), record=record, names=names)
-    problem = _problem(predict, record)
-    result = fit(problem, _starts(names, rig, record), loss=loss, noise=0.5)
-    return _completed(result, rig, record)
-
-
-def _problem(predict: RigPrediction, record: HeatingRecord) -> Problem:
     start = float(record.readings[0].mean())
+    begin = {CONDUCTANCE: START, AMBIENT: start, **{name: getattr(rig, name) for name in ALSO}}
     bounds = {CONDUCTANCE: BOUNDS, AMBIENT: (start - 10.0, start + 10.0), **ALSO}
-    return Problem(
-        names=predict.names,
+    problem = Problem(
+        names=names,
         predict=predict,
         observed=record.readings.ravel(),
-        lower=np.array([bounds[name][0] for name in predict.names]),
-        upper=np.array([bounds[name][1] for name in predict.names]),
+        lower=np.array([bounds[name][0] for name in names]),
+        upper=np.array([bounds[name][1] for name in names]),
     )
-
-
-def _starts(names: tuple[str, ...], rig: HeatingRig, record: HeatingRecord) -> FloatArray:
-    first = {
-        AMBIENT: float(record.readings[0].mean()),
-        "loss_W_per_m2K": rig.loss_W_per_m2K,
-        "base_W_per_m2K": rig.base_W_per_m2K,
-    }
-    return np.array([[START, *(first[name] for name in names[1:])]])
+    result = fit(problem, np.array([begin[name] for name in names]), loss=loss, noise=0.5)
+    return _completed(result, rig, record)
 
 
 def _completed(result: FitResult, rig: HeatingRig, record: HeatingRecord) -> FitResult:

@@ -19,7 +19,7 @@ References
    Numerical Analysis 14 (1977) 1006-1021.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Literal
 
 import numpy as np
@@ -35,7 +35,6 @@ Heater = Literal["power", "temperature"]
 
 #: Pure copper at room temperature: 398 W/(m K), 8930 kg/m^3, 0.385 kJ/(kg K) (CRC Handbook).
 COPPER = ThermalProperties.from_paper_units(398.0, 8930.0, 0.385)
-
 
 #: Coefficient of Alexander's method.
 GAMMA = 1.0 - np.sqrt(0.5)
@@ -116,16 +115,8 @@ class HeatingRig:
     cells_mm: float = 0.5
 
     def __post_init__(self) -> None:
-        for name in (
-            "block_length_mm",
-            "block_height_mm",
-            "copper_height_mm",
-            "asphalt_length_mm",
-            "asphalt_height_mm",
-            "depth_mm",
-            "pressure_N_per_mm2",
-            "cells_mm",
-        ):
+        positive = [one.name for one in fields(self) if one.name.endswith(("_mm", "_N_per_mm2"))]
+        for name in positive:
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0.0):
                 raise ValueError(f"rig: {name} = {value}, expected a number above 0")
@@ -301,11 +292,8 @@ class RigModel:
 
     def read(self, T: FloatArray, names: tuple[str, ...]) -> FloatArray:
         """Readings (..., sensors) of nodal temperatures (..., n)."""
-        readings = []
-        for name in names:
-            nodes, weights = self._sensors[name]
-            readings.append(T[..., nodes] @ weights)
-        return np.stack(readings, axis=-1)
+        sensors = [self._sensors[name] for name in names]
+        return np.stack([T[..., nodes] @ weights for nodes, weights in sensors], axis=-1)
 
     # ------------------------------------------------------------------------------- solutions
 
@@ -369,7 +357,8 @@ class RigModel:
             T = solve(C * start + GAMMA * dt * last * source)
             readings[step] = pick @ T
         if self.heater == "temperature":
-            readings += np.outer(drive, self._top_weight(names))
+            # the prescribed nodes have a share in the readings
+            readings += np.outer(drive, self._pick(self.top, names).sum(axis=1))
         return readings
 
     def _free_part(self, K: csc_matrix) -> tuple[IntArray, FloatArray]:
@@ -389,10 +378,6 @@ class RigModel:
             nodes, values = self._sensors[name]
             weights[row, nodes] = values
         return weights[:, free]
-
-    def _top_weight(self, names: tuple[str, ...]) -> FloatArray:
-        """Share of the prescribed nodes in each reading."""
-        return self._pick(self.top, names).sum(axis=1)
 
 
 def _body_matrices(

@@ -12,7 +12,7 @@ import difflib
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from calibration.conductance.heating_rig import HeatingRig, Thermocouple
 from calibration.data import DataError
@@ -70,7 +70,7 @@ def read_heating_rig(path: str | Path) -> HeatingRig:
     try:
         return HeatingRig(**given)
     except ValueError as error:
-        raise DataError(file=str(path), found=str(error), expected="a rig that fits") from None
+        _refuse(path, "", str(error), "a rig that fits")
 
 
 def read_contact_surface(path: str | Path) -> ContactSurface | None:
@@ -84,9 +84,11 @@ def read_contact_surface(path: str | Path) -> ContactSurface | None:
     try:
         return ContactSurface(**values)
     except ValueError as error:
-        raise DataError(
-            file=str(path), column="[surface]", found=str(error), expected="a rough surface"
-        ) from None
+        _refuse(path, "[surface]", str(error), "a rough surface")
+
+
+def _refuse(path: Path, column: str, found: str, expected: str) -> NoReturn:
+    raise DataError(file=str(path), column=column, found=found, expected=expected) from None
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -100,7 +102,7 @@ def _table(path: Path, parent: Mapping[str, Any], key: str, name: str) -> dict[s
     value = parent.get(key)
     if not isinstance(value, dict):
         found = "nothing" if value is None else repr(value)
-        raise DataError(file=str(path), column=name, found=found, expected=f"a table {name}")
+        _refuse(path, name, found, f"a table {name}")
     return value
 
 
@@ -109,18 +111,18 @@ def _check_keys(path: Path, table: Mapping[str, Any], allowed: list[str], name: 
         if key not in allowed:
             near = difflib.get_close_matches(key, allowed, n=1)
             expected = near[0] if near else f"one of {', '.join(allowed)}"
-            raise DataError(file=str(path), column=name, found=f"the key {key}", expected=expected)
+            _refuse(path, name, f"the key {key}", expected)
 
 
 def _number(path: Path, value: object, name: str) -> float:
     number = isinstance(value, int | float) and not isinstance(value, bool)
     if not number or not abs(value) < _LARGEST:  # type: ignore[arg-type]
-        raise DataError(file=str(path), column=name, found=describe(value), expected="a number")
+        _refuse(path, name, describe(value), "a number")
     key = name.split()[-1]
     finding = judge(value, _QUANTITIES[key]) if key in _QUANTITIES else None  # type: ignore[arg-type]
     if finding is not None and finding.impossible:
         found = describe(value) + (f", which {finding.likely}" if finding.likely else "")
-        raise DataError(file=str(path), column=name, found=found, expected=finding.expected)
+        _refuse(path, name, found, finding.expected)
     return float(value)  # type: ignore[arg-type]
 
 
@@ -137,6 +139,4 @@ def _material(path: Path, table: dict[str, Any], name: str) -> ThermalProperties
     try:
         return ThermalProperties.from_paper_units(**values)
     except ValueError as error:
-        raise DataError(
-            file=str(path), column=f"[rig.{name}]", found=str(error), expected="a material"
-        ) from None
+        _refuse(path, f"[rig.{name}]", str(error), "a material")

@@ -12,6 +12,7 @@ import csv
 import re
 import stat
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
@@ -105,8 +106,7 @@ def read_cells(content: bytes, file: str) -> Cells:
         columns, remark = _with_points(columns, rows, file)
         notes += remark
     numbers = np.array(rows, dtype=np.int64)
-    notes += renamed
-    return Cells(columns=columns, header_row=first + 1, rows=numbers, notes=tuple(notes))
+    return Cells(columns=columns, header_row=first + 1, rows=numbers, notes=tuple(notes + renamed))
 
 
 def _refuse(
@@ -121,13 +121,11 @@ def _decoded(content: bytes, file: str) -> tuple[str, list[str]]:
         if content.startswith(signature):
             _refuse(file, what, "a CSV file (text)")
     encoding, note = _encoding(content)
-    try:
+    with suppress(UnicodeDecodeError):
         text = content.decode(encoding)
-    except UnicodeDecodeError:
-        _refuse(file, "bytes that are no text", "a CSV file in UTF-8")
-    if _CONTROL.search(text):
-        _refuse(file, "bytes that are no text", "a CSV file in UTF-8")
-    return text, [note] if note else []
+        if not _CONTROL.search(text):
+            return text, [note] if note else []
+    _refuse(file, "bytes that are no text", "a CSV file in UTF-8")
 
 
 def _encoding(content: bytes) -> tuple[str, str]:
@@ -337,26 +335,14 @@ def _with_points(
     }
     if not any(commas.values()):
         return columns, []
+    expected = ""
     if any(_DECIMAL_POINT.fullmatch(cell) for cells in columns.values() for cell in cells):
-        name = next(name for name, found in commas.items() if found)
-        at = commas[name][0]
-        _refuse(
-            file,
-            repr(columns[name][at]),
-            "decimal points or decimal commas, not both",
-            row=rows[at],
-            column=name,
-        )
-    if all(_THOUSANDS.fullmatch(columns[name][i]) for name, at in commas.items() for i in at):
-        name = next(name for name, found in commas.items() if found)
-        at = commas[name][0]
-        _refuse(
-            file,
-            repr(columns[name][at]),
-            "a decimal point (this may be a comma of thousands)",
-            row=rows[at],
-            column=name,
-        )
+        expected = "decimal points or decimal commas, not both"
+    elif all(_THOUSANDS.fullmatch(columns[name][i]) for name, at in commas.items() for i in at):
+        expected = "a decimal point (this may be a comma of thousands)"
+    if expected:
+        name, first = next((name, at[0]) for name, at in commas.items() if at)
+        _refuse(file, repr(columns[name][first]), expected, row=rows[first], column=name)
     changed = {
         name: [c.replace(",", ".") if _DECIMAL_COMMA.fullmatch(c) else c for c in cells]
         if commas[name]

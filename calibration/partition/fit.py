@@ -30,9 +30,10 @@ import pandas as pd
 
 from calibration.fitting import FitResult, Problem, fit
 from calibration.partition.data import Condition, PartitionData, ProfileUse, read_partition_data
-from calibration.partition.loading import refuse_event
+from calibration.partition.loading import refuse_event, refuse_key
 from calibration.partition.simulation_store import SimulationStore
 from calibration.partition.slides import (
+    CONTACT_SHARE,
     SMALLEST,
     Conditioned,
     PartitionModel,
@@ -44,7 +45,7 @@ from calibration.partition.slides import (
     power,
 )
 from contact.partition import HeatPartition
-from fem.case import Case, CaseError
+from fem.case import Case
 from fem.files import program_version, version_of
 from materials.arrays import FloatArray
 
@@ -146,21 +147,13 @@ def _check_case(case: Case) -> None:
     """Refuse a case whose block cannot warm up, or whose event no measured slide stands for."""
     refuse_event(case)
     if case.heat.partition.cap < SMALLEST:
-        raise CaseError(
-            case.source,
-            "heat.partition.cap",
-            f"{case.heat.partition.cap:g}",
-            f"at least {SMALLEST:g}, a share of the friction power to identify",
-        )
+        expected = f"at least {SMALLEST:g}, a share of the friction power to identify"
+        refuse_key(case, "heat.partition.cap", f"{case.heat.partition.cap:g}", expected)
     if not isinstance(case.heat.partition.pressure, str):
-        raise CaseError(
-            case.source,
-            "heat.partition.pressure",
-            f"{case.heat.partition.pressure:g}",
-            '"mean" or "local": with one fixed pressure the law has no exponent to fit',
-        )
+        expected = '"mean" or "local": with one fixed pressure the law has no exponent to fit'
+        refuse_key(case, "heat.partition.pressure", f"{case.heat.partition.pressure:g}", expected)
     if case.friction.law == "coulomb" and case.friction.constants.get("mu") == 0.0:
-        raise CaseError(case.source, "friction.mu", "0", "friction, which makes heat")
+        refuse_key(case, "friction.mu", "0", "friction, which makes heat")
 
 
 # -- discrete estimates ------------------------------------------------------------------------
@@ -171,7 +164,9 @@ def _discrete(
 ) -> list[Simulated]:
     """Constant kappas of some conditions, side by side; `like` is one that is done already."""
     ratio = 1.0 if like is None else like.kappa / like.rigid_kappa
-    share = model.first_share if like is None else like.share
+    # Before anything is known: pressure on the top over mean contact pressure.
+    first = 1.0 if model.case.block.rigid else CONTACT_SHARE
+    share = first if like is None else like.slide.share
     rigids = model.rigid_estimates(conditions)
     trials = [
         Trial(

@@ -20,14 +20,16 @@ def refuse_event(case: Case) -> None:
     for number, phase in enumerate(case.loading.phase):
         key = f"loading.phase.{number}"
         if phase.kind == "record":
-            _refuse(case, f"{key}.kind", '"record"', "press and slide, as the rig slid the block")
+            refuse_key(
+                case, f"{key}.kind", '"record"', "press and slide, as the rig slid the block"
+            )
         name = {"press": "mean_pressure_N_per_mm2", "slide": "velocity_mm_per_s"}.get(phase.kind)
         value = abs(getattr(phase, name)) if name else 0.0
         if name is None or value == 0.0:
             continue
         if held.setdefault(name, value) != value:
             found = f"{describe(value)} after {describe(held[name])}"
-            _refuse(case, f"{key}.{name}", found, "one pressure and one speed: those measured")
+            refuse_key(case, f"{key}.{name}", found, "one pressure and one speed: those measured")
 
 
 def loading_keys(case: Case, pressure: float, velocity: float) -> dict[str, Any]:
@@ -53,5 +55,6 @@ def loading_keys(case: Case, pressure: float, velocity: float) -> dict[str, Any]
     return {"loading.phase": phases, "loading.repeat": 1}
 
 
-def _refuse(case: Case, key: str, found: str, expected: str) -> NoReturn:
+def refuse_key(case: Case, key: str, found: str, expected: str) -> NoReturn:
+    """Refuse the value of a key of the case."""
     raise CaseError(case.source, key, found, expected)

@@ -164,17 +164,7 @@ class Conditioned:
 
 
 class Trial(NamedTuple):
-    """A block that is to slide.
-
-    Attributes
-    ----------
-    condition : Condition
-    law : HeatPartition
-    platen : float
-        Pressure on the top [N/mm^2].
-    m : float
-        Exponent of the temperature rise over the partition [-].
-    """
+    """A block that is to slide; its attributes are those of `Conditioned`."""
 
     condition: Condition
     law: HeatPartition
@@ -222,11 +212,6 @@ class Simulated:
     platen: float
     confirmed: bool
 
-    @property
-    def share(self) -> float:
-        """Pressure on the top over mean contact pressure [-]."""
-        return self.slide.share
-
 
 @dataclass(frozen=True)
 class PartitionModel:
@@ -247,27 +232,17 @@ class PartitionModel:
     counts: dict[str, int] = field(default_factory=dict)
 
     @property
-    def cap(self) -> float:
-        """Largest partition [-]."""
-        return self.like.cap
-
-    @property
     def like(self) -> HeatPartition:
         """Partition of the case, whose cap and kind of pressure the fitted one has."""
         return self.case.heat.partition_object()
 
-    @property
-    def first_share(self) -> float:
-        """Pressure on the top over mean contact pressure, before anything is known [-]."""
-        return 1.0 if self.case.block.rigid else CONTACT_SHARE
-
     def clipped(self, kappa: float) -> float:
         """The partition inside what can be simulated, with the digits that matter."""
-        return _rounded(float(np.clip(kappa, SMALLEST, self.cap)))
+        return _rounded(float(np.clip(kappa, SMALLEST, self.like.cap)))
 
     def rigid_estimates(self, conditions: Sequence[Condition]) -> list[RigidEstimate]:
         """Partitions of rigid blocks with the stated pressures, from two blocks each."""
-        low, high = (self.clipped(share * self.cap) for share in _RIGID)
+        low, high = (self.clipped(share * self.like.cap) for share in _RIGID)
         blocks = self._run(
             [
                 Trial(condition, constant(kappa, self.like), condition.pressure, 1.0)
@@ -332,12 +307,11 @@ def _rounded(value: float) -> float:
 
 def partition_table(law: HeatPartition) -> dict[str, str | float]:
     """The law as the table `heat.partition` of a case."""
-    table: dict[str, str | float] = {"law": "power", "prefactor": law.prefactor}
+    constants = {"prefactor": law.prefactor, "exponent": law.exponent}
     if law.exponent == 0.0:
-        table["law"] = "constant"
-    else:
-        table["exponent"] = law.exponent
-    return table | {"cap": law.cap, "pressure": law.pressure}
+        del constants["exponent"]
+    kind = "power" if law.exponent else "constant"
+    return {"law": kind, **constants, "cap": law.cap, "pressure": law.pressure}
 
 
 def _described(law: HeatPartition) -> str:
