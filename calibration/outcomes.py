@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.figure import Figure
 
 from calibration.conductance import (
     HeatingRig,
@@ -50,6 +51,7 @@ from fem.case import Case
 from fem.files import spreadsheet, staged_directory
 
 PARAMETERS_FILE = "parameters.toml"
+_STRESSES = ("fit_N_per_mm2", "residual_N_per_mm2")
 
 #: What the summary repeats of a fit's metadata.
 _SAID = (
@@ -102,35 +104,32 @@ def calibrate_hyperelastic(
     path: str | Path, *, compare: bool = True, intervals: str = "student", **options: Any
 ) -> Outcome:
     """Fit a hyperelastic model to the CSV file `path` (options of `fit_hyperelastic`)."""
-    choice = {key: options.pop(key) for key in CHOICES if key in options}
     model = options.pop("model", "yeoh")
-    data = select_data(path, **choice)
+    data = select_data(path, **_taken(options, CHOICES))
     result = _with_intervals(fit_hyperelastic(data, model, **options), intervals)
-    points = pd.DataFrame(
-        {
-            "row": data.table.rows,
-            "mode": data.mode,
-            "stretch": data.stretch,
-            "nominal_stress_N_per_mm2": data.stress,
-            "fit_N_per_mm2": result.predicted,
-            "residual_N_per_mm2": result.predicted - result.observed,
-        }
-    )
-    files = _files(result, points) | {"fit.png": png(plot_hyperelastic(result, data))}
-    text = _heading(result, path)
+    columns = {
+        "row": data.table.rows,
+        "mode": data.mode,
+        "stretch": data.stretch,
+        "nominal_stress_N_per_mm2": data.stress,
+    }
+    text, files = "", dict[str, pd.DataFrame | Figure]()
     if compare:
         found = compare_models(data, **_without_fixed(options))
-        files["models.csv"] = _csv(found)
-        files["models.png"] = png(plot_comparison(found, "rmse_N_per_mm2", "N/mm²"))
-        text += _compared("all models", found.drop(columns=["n_data", "values"]))
-    return _outcome(result, text, files)
+        files = {
+            "models.csv": found,
+            "models.png": plot_comparison(found, "rmse_N_per_mm2", "N/mm²"),
+        }
+        text = _compared("all models", found.drop(columns=["n_data", "values"]))
+    points = _points(result, columns, *_STRESSES)
+    return _outcome(result, path, points, plot_hyperelastic(result, data), text, **files)
 
 
 def calibrate_viscoelastic(
     path: str | Path, *, intervals: str = "student", **options: Any
 ) -> Outcome:
     """Fit branches to the CSV file `path` (options of `fit_viscoelastic`)."""
-    fitting = {key: options.pop(key) for key in ("branches", "loss", "noise") if key in options}
+    fitting = _taken(options, ("branches", "loss", "noise"))
     data = read_memory(path, **options)
     if isinstance(data, Moduli):
         result = fit_viscoelastic(data, **fitting)
@@ -139,7 +138,6 @@ def calibrate_viscoelastic(
         result = fit_viscoelastic(data, **fitting, **options)
         points, picture = _history_points(result, data), plot_histories(result, data)
     result = _with_intervals(result, intervals)
-    files = _files(result, points) | {"fit.png": png(picture)}
     about = result.metadata
     tried = pd.DataFrame(
         {
@@ -148,52 +146,43 @@ def calibrate_viscoelastic(
             "criterion": about["criterion_by_branches"],
         }
     )
-    files["branches.csv"] = _csv(tried)
-    return _outcome(result, f"{_heading(result, path)}\n{_shown(tried)}", files)
+    text = f"\n{_shown(tried)}"
+    return _outcome(result, path, points, picture, text, **{"branches.csv": tried})
 
 
 def calibrate_mullins(
     path: str | Path, *, model: str = "yeoh", intervals: str = "student", **options: Any
 ) -> Outcome:
     """Fit softening to the CSV file `path` (options of `fit_mullins`)."""
-    reading = {key: options.pop(key) for key in ("mode", "from_cycle") if key in options}
-    data = read_histories(path, timed=False, **reading)
+    data = read_histories(path, timed=False, **_taken(options, ("mode", "from_cycle")))
     result = _with_intervals(fit_mullins(data, model, **options), intervals)
-    files = _files(result, _history_points(result, data))
-    files["fit.png"] = png(plot_histories(result, data))
-    return _outcome(result, _heading(result, path), files)
+    points = _history_points(result, data)
+    return _outcome(result, path, points, plot_histories(result, data))
 
 
 def _history_points(result: FitResult, data: Histories) -> pd.DataFrame:
     points = data.points
-    time = {} if data.time is None else {"time_s": data.time[data.compared]}
-    return pd.DataFrame(
-        {
-            "row": points.table.rows,
-            "test": data.names,
-            **time,
-            "stretch": points.stretch,
-            "nominal_stress_N_per_mm2": points.stress,
-            "fit_N_per_mm2": result.predicted,
-            "residual_N_per_mm2": result.predicted - result.observed,
-        }
-    )
+    columns = {
+        "row": points.table.rows,
+        "test": data.names,
+        "time_s": None if data.time is None else data.time[data.compared],
+        "stretch": points.stretch,
+        "nominal_stress_N_per_mm2": points.stress,
+    }
+    return _points(result, columns, *_STRESSES)
 
 
 def _moduli_points(result: FitResult, data: Moduli) -> pd.DataFrame:
     kinds = [name for name in ("storage", "loss") if getattr(data, name) is not None]
     times = len(kinds)
-    return pd.DataFrame(
-        {
-            "row": np.tile(data.rows, times),
-            "kind": np.repeat(kinds, data.omega.size),
-            "T_C": np.tile(data.dT + data.T_ref_C, times),
-            "frequency_Hz": np.tile(data.measured / (2.0 * np.pi), times),
-            "modulus_at_T_ref_N_per_mm2": result.observed,
-            "fit_N_per_mm2": result.predicted,
-            "residual_N_per_mm2": result.predicted - result.observed,
-        }
-    )
+    columns = {
+        "row": np.tile(data.rows, times),
+        "kind": np.repeat(kinds, data.omega.size),
+        "T_C": np.tile(data.dT + data.T_ref_C, times),
+        "frequency_Hz": np.tile(data.measured / (2.0 * np.pi), times),
+        "modulus_at_T_ref_N_per_mm2": result.observed,
+    }
+    return _points(result, columns, *_STRESSES)
 
 
 def calibrate_friction(
@@ -203,61 +192,46 @@ def calibrate_friction(
     law = options.pop("law", "huemer")
     data = read_friction(path)
     result = _with_intervals(fit_friction(data, law, **options), intervals)
-    points = pd.DataFrame(
-        {
-            "row": data.table.rows,
-            "p_N_per_mm2": data.p,
-            "v_mm_per_s": data.v,
-            **({} if data.T is None else {"T_C": data.T}),
-            "mu": data.mu,
-            "fit": result.predicted,
-            "residual": result.predicted - result.observed,
-        }
-    )
-    files = _files(result, points) | {"fit.png": png(plot_friction(result, data))}
-    text = _heading(result, path)
+    columns = {
+        "row": data.table.rows,
+        "p_N_per_mm2": data.p,
+        "v_mm_per_s": data.v,
+        "T_C": data.T,
+        "mu": data.mu,
+    }
+    text, files = "", dict[str, pd.DataFrame | Figure]()
     if compare:
         found = compare_laws(data, **_without_fixed(options))
-        files["laws.csv"] = _csv(found)
-        text += _compared("both laws", found.drop(columns="reason"))
+        files = {"laws.csv": found}
+        text = _compared("both laws", found.drop(columns="reason"))
         text += "".join(f"\n{reason}" for reason in found["reason"] if reason)
-    return _outcome(result, text, files)
-
-
-def _without_fixed(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options for a comparison: a held parameter belongs to one model only."""
-    return {key: value for key, value in options.items() if key != "fixed"}
-
-
-def _compared(what: str, found: pd.DataFrame) -> str:
-    return f"\n{what} on the same data, best AIC first:\n{_shown(found)}"
+    points = _points(result, columns)
+    return _outcome(result, path, points, plot_friction(result, data), text, **files)
 
 
 def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None, **options: Any) -> Outcome:
     """Fit the WLF constants to the CSV file `path` (options of `read_shift_factors`)."""
-    files: dict[str, bytes] = {}
     data = read_shift_factors(path, T_ref_C=T_ref_C, **options)
     result = fit_wlf(data, T_ref_C=T_ref_C)
+    files: dict[str, pd.DataFrame | Figure] = {}
     if data.master is not None:
-        files["shift_factors.csv"] = _csv(data.master.shifts)
-        files["master_curve.csv"] = _csv(data.master.curve)
-        files["master_curve.png"] = png(plot_master_curve(data.master))
-        result = replace(result, warnings=(*data.master.warnings, *result.warnings))
-    points = pd.DataFrame(
-        {
-            **({"row": data.rows} if data.rows.size else {}),
-            "T_C": data.T,
-            "log10_aT": result.observed,
-            "fit": result.predicted,
-            "residual": result.predicted - result.observed,
+        files = {
+            "shift_factors.csv": data.master.shifts,
+            "master_curve.csv": data.master.curve,
+            "master_curve.png": plot_master_curve(data.master),
         }
-    )
-    files |= _files(result, points) | {"fit.png": png(plot_wlf(result, data.T))}
+        result = replace(result, warnings=(*data.master.warnings, *result.warnings))
+    columns = {
+        "row": data.rows if data.rows.size else None,
+        "T_C": data.T,
+        "log10_aT": result.observed,
+    }
     text = (
-        f"{_heading(result, path)}\n  d1 and d2 refer to {result.metadata['T_ref_C']:g} deg C "
+        f"\n  d1 and d2 refer to {result.metadata['T_ref_C']:g} deg C "
         "(wlf_T_ref_C); a case rebases them to T_ref_C, the temperature of its friction law"
     )
-    return _outcome(result, text, files)
+    points = _points(result, columns)
+    return _outcome(result, path, points, plot_wlf(result, data.T), text, **files)
 
 
 def calibrate_conductance(
@@ -282,15 +256,14 @@ def calibrate_conductance(
         ],
         axis=1,
     )
-    text = _heading(result, path)
+    text = ""
     if rig_file is None:
         text += "\n  dimensions of the rig are the assumed defaults: give yours with --rig"
     if surface is not None:
         constant = conductance_constant(result, surface)
         result = replace(result, metadata={**result.metadata, "C_of_eq_11": constant.value})
         text += f"\n  C of eq. (11): {constant.value:.4g} +- {constant.stderr:.2g}"
-    files = _files(result, points) | {"fit.png": png(plot_conductance(result, record))}
-    return _outcome(result, text, files)
+    return _outcome(result, path, points, plot_conductance(result, record), text)
 
 
 def calibrate_partition(
@@ -312,13 +285,11 @@ def calibrate_partition(
     found = fit_partition(path, case, store, **options)
     result = _with_intervals(found.result, intervals)
     result = replace(result, metadata={**result.metadata, "case_file": Path(case.source).name})
-    files = _files(result, _partition_points(found))
-    files["kappas.csv"] = _csv(found.discrete)
-    files["fit.png"] = png(plot_partition(result, found.discrete))
     made = "none" if not found.simulated else str(found.simulated)
-    text = f"{_heading(result, path)}\nconstant kappa at each pressure and velocity:\n"
-    text += f"{_shown(found.discrete)}\n{made} of the simulations had to be made"
-    return _outcome(result, text, files)
+    text = f"\nconstant kappa at each pressure and velocity:\n{_shown(found.discrete)}"
+    text += f"\n{made} of the simulations had to be made"
+    picture, points = plot_partition(result, found.discrete), _partition_points(found)
+    return _outcome(result, path, points, picture, text, **{"kappas.csv": found.discrete})
 
 
 def _partition_points(found: PartitionFit) -> pd.DataFrame:
@@ -326,17 +297,37 @@ def _partition_points(found: PartitionFit) -> pd.DataFrame:
     rows = [int(row) for condition in conditions for row in found.data.table.rows[condition.rows]]
     places = [condition.X for condition in conditions if condition.X is not None]
     counts = [condition.observed.size for condition in conditions]
-    return pd.DataFrame(
-        {
-            "row": rows,
-            "p_stated_N_per_mm2": np.repeat([c.pressure for c in conditions], counts),
-            "v_mm_per_s": np.repeat([c.velocity for c in conditions], counts),
-            **({"X_mm": np.concatenate(places)} if places else {}),
-            found.data.quantity: result.observed,
-            "fit_C": result.predicted,
-            "residual_K": result.predicted - result.observed,
-        }
-    )
+    columns = {
+        "row": rows,
+        "p_stated_N_per_mm2": np.repeat([c.pressure for c in conditions], counts),
+        "v_mm_per_s": np.repeat([c.velocity for c in conditions], counts),
+        "X_mm": np.concatenate(places) if places else None,
+        found.data.quantity: result.observed,
+    }
+    return _points(result, columns, "fit_C", "residual_K")
+
+
+def _taken(options: dict[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+    """Some of the options, which are no longer there afterwards."""
+    return {key: options.pop(key) for key in keys if key in options}
+
+
+def _without_fixed(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options for a comparison: a held parameter belongs to one model only."""
+    return {key: value for key, value in options.items() if key != "fixed"}
+
+
+def _compared(what: str, found: pd.DataFrame) -> str:
+    return f"\n{what} on the same data, best AIC first:\n{_shown(found)}"
+
+
+def _points(
+    result: FitResult, columns: Mapping[str, Any], fit: str = "fit", residual: str = "residual"
+) -> pd.DataFrame:
+    """The columns there are with the fitted values and the residuals."""
+    known = {name: values for name, values in columns.items() if values is not None}
+    differences = result.predicted - result.observed
+    return pd.DataFrame({**known, fit: result.predicted, residual: differences})
 
 
 def _with_intervals(result: FitResult, kind: str) -> FitResult:
@@ -351,14 +342,26 @@ def _with_intervals(result: FitResult, kind: str) -> FitResult:
     return replace(result, metadata={**result.metadata, "interval_95": {"kind": kind, **limits}})
 
 
-def _outcome(result: FitResult, text: str, files: Mapping[str, bytes]) -> Outcome:
-    said = {key: tuple(result.metadata.get(key, ())) for key in ("reading", "unusual")}
-    return Outcome(text=text, files=files, notes=said["reading"], unusual=said["unusual"])
-
-
-def _files(result: FitResult, points: pd.DataFrame) -> dict[str, bytes]:
+def _outcome(
+    result: FitResult,
+    path: str | Path,
+    points: pd.DataFrame,
+    picture: Figure,
+    text: str = "",
+    **more: pd.DataFrame | Figure,
+) -> Outcome:
+    """What every calibration prints and writes, with a text and files (by name) of its own."""
     fit_progress.stage("tables and pictures")
-    return {PARAMETERS_FILE: parameter_text(result).encode(), "fit.csv": _csv(points)}
+    files = {
+        name: png(shown) if isinstance(shown, Figure) else _csv(shown)
+        for name, shown in {"fit.csv": points, "fit.png": picture, **more}.items()
+    }
+    return Outcome(
+        text=_heading(result, path) + text,
+        files={PARAMETERS_FILE: parameter_text(result).encode(), **files},
+        notes=tuple(result.metadata.get("reading", ())),
+        unusual=tuple(result.metadata.get("unusual", ())),
+    )
 
 
 def _csv(table: pd.DataFrame) -> bytes:

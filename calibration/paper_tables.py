@@ -75,10 +75,11 @@ def write_table2(directory: str | Path) -> list[Path]:
 
 def table1_synthetic(seed: int = 0) -> pd.DataFrame:
     """Parameters of Table 1 recovered from synthetic tests, a row per parameter."""
+    stress_values = {name: asdict(model) for name, model in COMPOUNDS.items()}
     return pd.concat(
         [
             _recovered(name, stress_fit(name, seed), stress_fit(name, seed, noise=0.0), paper)
-            for name, paper in _paper_values().items()
+            for name, paper in stress_values.items()
         ],
         ignore_index=True,
     )
@@ -97,23 +98,22 @@ def table2_synthetic(seed: int = 0) -> pd.DataFrame:
 
 def table1_upturn() -> pd.DataFrame:
     """RMSE of every model on the bars, without and with the upturn in the data."""
-    rows = []
-    for name in ("yeoh-bars-series-1", "yeoh-bars-series-2"):
-        models = ("mooney-rivlin", "neo-hooke", "yeoh", "van-der-waals")
-        found = compare_models(synthetic_stress(name), models)
-        found.insert(0, "data", f"synthetic {name}")
-        rows.append(found)
-    return pd.concat(rows, ignore_index=True)
+    names = ("yeoh-bars-series-1", "yeoh-bars-series-2")
+    models = ("mooney-rivlin", "neo-hooke", "yeoh", "van-der-waals")
+    found = {f"synthetic {name}": compare_models(synthetic_stress(name), models) for name in names}
+    return _below_each_other(found)
 
 
 def table1_real_rubber() -> pd.DataFrame:
     """Every model on every published data set, simultaneously over the modes."""
-    rows = []
-    for name in DATASETS:
-        found = compare_models(dataset_path(name))
-        found.insert(0, "data", name)
-        rows.append(found)
-    return pd.concat(rows, ignore_index=True)
+    return _below_each_other({name: compare_models(dataset_path(name)) for name in DATASETS})
+
+
+def _below_each_other(tables: dict[str, pd.DataFrame]) -> pd.DataFrame:
+    """One table, its first column the names of the data."""
+    for name, table in tables.items():
+        table.insert(0, "data", name)
+    return pd.concat(tables.values(), ignore_index=True)
 
 
 def stress_fit(name: str, seed: int, noise: float = STRESS_NOISE_N_PER_MM2) -> FitResult:
@@ -137,10 +137,6 @@ def friction_values() -> dict[str, dict[str, float]]:
     }
 
 
-def _paper_values() -> dict[str, dict[str, float]]:
-    return {name: asdict(model) for name, model in COMPOUNDS.items()}
-
-
 def _recovered(
     name: str, noisy: FitResult, clean: FitResult, paper: dict[str, float]
 ) -> pd.DataFrame:
@@ -153,7 +149,7 @@ def _recovered(
                 "paper": paper[parameter],
                 "fitted": noisy.values[parameter],
                 "stderr": noisy.stderr[parameter],
-                "off": _off(noisy, parameter, paper[parameter]),
+                "off": (noisy.values[parameter] - paper[parameter]) / noisy.stderr[parameter],
                 "low_95": intervals[parameter][0],
                 "high_95": intervals[parameter][1],
                 "off_noise_free": clean.values[parameter] / paper[parameter] - 1.0,
@@ -163,10 +159,6 @@ def _recovered(
             for parameter in noisy.names
         ]
     )
-
-
-def _off(result: FitResult, name: str, truth: float) -> float:
-    return (result.values[name] - truth) / result.stderr[name]
 
 
 def _readable(table: pd.DataFrame) -> str:

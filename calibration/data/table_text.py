@@ -220,29 +220,6 @@ def _meant(name: str) -> str:
     return (found or _CANONICAL.get(_canonical(name), [name]))[0]
 
 
-class _Records:
-    """Lines for the csv module: at the beginning of a record empty lines and comments are skipped.
-
-    Inside a quoted cell every line counts.
-    """
-
-    def __init__(self, lines: list[str], start: int) -> None:
-        self.lines, self.at, self.begins, self.first = lines, start, True, start
-
-    def __iter__(self) -> _Records:
-        return self
-
-    def __next__(self) -> str:
-        if self.begins:
-            while self.at < len(self.lines) and _nothing(self.lines[self.at]):
-                self.at += 1
-            self.first, self.begins = self.at, False
-        if self.at >= len(self.lines):
-            raise StopIteration
-        self.at += 1
-        return self.lines[self.at - 1] + "\n"
-
-
 def _nothing(line: str) -> bool:
     bare = line.strip(_BLANK)
     return not bare or bare[0] == "#"
@@ -251,13 +228,29 @@ def _nothing(line: str) -> bool:
 def _records(
     lines: list[str], start: int, separator: str, file: str
 ) -> Iterator[tuple[int, int, list[str]]]:
-    """First line and the one after the last of each record (from 0), and its cells."""
-    source = _Records(lines, start)
-    reader = csv.reader(source, delimiter=separator, strict=True, skipinitialspace=True)
+    """First line and the one after the last of each record (from 0), and its cells.
+
+    At the beginning of a record empty lines and comments are skipped; inside a quoted cell every
+    line counts.
+    """
+    first, at, begins = start, start, True
+
+    def source() -> Iterator[str]:
+        nonlocal first, at, begins
+        while True:
+            if begins:
+                while at < len(lines) and _nothing(lines[at]):
+                    at += 1
+                first, begins = at, False
+            if at >= len(lines):
+                return
+            at += 1
+            yield lines[at - 1] + "\n"
+
     try:
-        for cells in reader:
-            yield source.first, source.at, cells
-            source.begins = True
+        for cells in csv.reader(source(), delimiter=separator, strict=True, skipinitialspace=True):
+            yield first, at, cells
+            begins = True
     except csv.Error as error:
         found, expected = f"a cell that cannot be read ({error})", "quotes in pairs"
         if "unexpected end" in str(error):
@@ -265,7 +258,7 @@ def _records(
         elif "field limit" in str(error):
             limit = csv.field_size_limit()
             found, expected = f"a cell of more than {limit} characters", "a short cell"
-        _refuse(file, found, expected, row=source.first + 1)
+        _refuse(file, found, expected, row=first + 1)
 
 
 def _names(header: list[str], row: int, file: str) -> tuple[list[str], list[str]]:

@@ -15,6 +15,7 @@ References
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.optimize import brentq
@@ -125,11 +126,8 @@ def check_stability(model: Hyperelastic, window: dict[str, tuple[float, float]])
     window : dict
         Lowest and highest stretch of the data by mode.
     """
-    drucker = {
-        mode: _stable_range(lambda lam, mode=mode: drucker_margin(model, lam, mode))  # type: ignore[misc]
-        for mode in MODES
-    }
-    ellipticity = _stable_range(lambda lam: ellipticity_margin(model, lam))
+    drucker = {mode: _stable_range(partial(drucker_margin, model, mode=mode)) for mode in MODES}
+    ellipticity = _stable_range(partial(ellipticity_margin, model))
     return Stability(drucker=drucker, ellipticity=ellipticity, window=dict(window))
 
 

@@ -14,15 +14,14 @@ from calibration.memory.spectrum import log_grid
 from calibration.rubber import (
     STRESS,
     StressData,
-    check_points,
     check_sign,
     check_zero,
     read_stress_table,
+    stress_points,
 )
-from materials import plausible as quantities
 from materials.arrays import BoolArray, FloatArray, IndexArray, WordArray
 from materials.homogeneous import branch_histories, reduced_steps
-from materials.hyperelastic_base import MODES, Mode
+from materials.hyperelastic_base import Mode
 from materials.prony import Prony
 from materials.wlf import WLF
 
@@ -161,9 +160,7 @@ def read_histories(
 
 
 def _columns(source: Table) -> dict[str, Any]:
-    stretch, mode = source.numbers("stretch", quantities.STRETCH), source.words("mode", MODES)
-    stress = source.numbers(STRESS, quantities.STRESS)
-    check_points(source, stretch, stress, mode)
+    stretch, stress, mode = stress_points(source)
     if not np.any(stress):
         source.refuse_at(0, STRESS, "zero in every row", "stresses in N/mm^2, not all zero")
     names = source.frame["test"].astype(str).str.strip() if source.has("test") else None

@@ -15,6 +15,11 @@ from calibration.rubber.stress_checks import (
     check_zero,
     fitted_energy,
 )
-from calibration.rubber.stress_data import StressData, read_stress_table, select_data
+from calibration.rubber.stress_data import (
+    StressData,
+    read_stress_table,
+    select_data,
+    stress_points,
+)
 from calibration.rubber.stress_models import STRESS_MODELS, Kinematics, StressModel
 from calibration.rubber.stress_zero import Zero

@@ -82,7 +82,7 @@ def select_data(
 ) -> StressData:
     """Read, check and choose the points of a fit (see `calibration.fit_hyperelastic`)."""
     source, notes = read_stress_table(table, modes[0] if modes and len(modes) == 1 else None)
-    stretch, stress, mode = _points(source)
+    stretch, stress, mode = stress_points(source)
     if zero == "none":
         check_zero(source, stretch, stress)
     account = _Account(source)
@@ -114,8 +114,8 @@ def select_data(
     return replace(data, selection=selection)
 
 
-def _points(source: Table) -> tuple[FloatArray, FloatArray, WordArray]:
-    """Stretch, stress and mode of every row."""
+def stress_points(source: Table) -> tuple[FloatArray, FloatArray, WordArray]:
+    """Stretch, nominal stress [N/mm^2] and mode of every row, checked."""
     stretch, mode = source.numbers("stretch", quantities.STRETCH), source.words("mode", MODES)
     stress = source.numbers(STRESS, quantities.STRESS)
     check_points(source, stretch, stress, mode)
