@@ -89,6 +89,8 @@ def fit_friction(
     """
     if law not in forms():
         raise ValueError(f"law is {law!r}; expected one of {', '.join(forms())}")
+    if isinstance(wlf, str) and wlf != "fit":
+        raise ValueError(f'wlf is {wlf!r}; expected a WLF, "fit" or None')
     data, form = read_friction(table), forms()[law]
     held = form.with_scale(dict(fixed or {}))
     _require_data(data, form, law, wlf, held)

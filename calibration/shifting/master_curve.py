@@ -67,9 +67,7 @@ class MasterCurve:
     @property
     def overlap_error(self) -> float:
         """RMS overlap error of the whole master curve in decades."""
-        errors = self.shifts["overlap_error"].to_numpy(dtype=float)
-        errors = errors[np.isfinite(errors)]
-        return float(np.sqrt(np.mean(errors**2))) if errors.size else float("nan")
+        return _total(self.shifts)
 
 
 def shift_sweeps(
@@ -132,8 +130,10 @@ def vertical_shift(T_C: FloatArray, T_ref_C: float, expansion_per_K: float = 0.0
 
 
 def _total(shifts: pd.DataFrame) -> float:
-    errors = shifts["overlap_error"].dropna().to_numpy()
-    return float(np.sqrt(np.mean(errors**2)))
+    """RMS overlap error of the sweeps that overlap [decades], NaN for none."""
+    errors = shifts["overlap_error"].to_numpy(dtype=float)
+    errors = errors[np.isfinite(errors)]
+    return float(np.sqrt(np.mean(errors**2))) if errors.size else float("nan")
 
 
 def _said(kind: str, asked: str, shifted: dict[str, pd.DataFrame], expansion_per_K: float) -> str:

@@ -24,10 +24,13 @@ from fem.stepping.coupled_state import AcceptedStep, RejectedStep
 from fem.stepping.coupled_step import CoupledModel
 
 #: Factor of the damping from one solution to the next; with a half it takes a third more of them.
+#: With 0 the 108 cases of `make robustness` take 0.63 of the iterations, but the force at the onset
+#: of a block with a coefficient of 0.6 is 3.4 % of full slip off its limit instead of 0.2 %.
 EASING = 0.25
 #: Level below which the next solution is without damping.
 LAST_LEVEL = 0.01
-#: Share of the work of a step that its damping may dissipate without being relaxed [-].
+#: Share of the work of a step that its damping may dissipate without being relaxed [-]; with 1e-3
+#: the introductory example takes 7 % fewer iterations (mean of nine runs).
 NEGLIGIBLE = 1e-4
 #: Share of it up to which a step may keep its damping without a try with less [-].
 TOLERABLE = 2e-3

@@ -96,6 +96,11 @@ def test_given_shift_is_used_and_a_missing_one_reported():
     assert any("no WLF shift takes part" in warning for warning in without.warnings)
 
 
+def test_a_shift_by_an_unknown_word_is_refused():
+    with pytest.raises(ValueError, match="wlf is 'auto'; expected a WLF, \"fit\" or None"):
+        fit_friction(synthetic_friction(ExponentialFriction()), law="exponential", wlf="auto")
+
+
 def test_one_pressure_cannot_determine_the_pressure_part():
     table = synthetic_friction(HuemerFriction(), pressures_N_per_mm2=(0.3,))
     result = fit_friction(table, "huemer")
