@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 from fem import Case
-from fem.files import BAD_INPUT, write_table, write_text
+from fem.files import BAD_INPUT, lenient_streams, write_table, write_text
 from fem.stepping import mesh_of
 from materials.arrays import FloatArray, IntArray
 from validation.analysis import markdown_table, with_block
@@ -222,4 +222,5 @@ def main(directory: str) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    with lenient_streams():
+        sys.exit(main(sys.argv[1]))
