@@ -39,11 +39,11 @@ class Limit:
 #: at most in the 108 cases of the robustness study; 1 % is three times that. Heat is conserved by
 #: construction, so that 1 % can only be reached by an error. Regularisation: what is not rubber,
 #: friction or heat; its reaction on the force is of the size of its share. Snaps: up to 3 % T_max
-#: kept to 0.2 K with a third and three times the damping, beyond it only to 7 K (the study of large
-#: snaps). Lag: changes the friction force, and with it the heat, by as much. Penetration: a step
-#: with more is rejected where self-contact is on, so this speaks of runs without it. Layer: the
-#: share by which the rise of the surface temperature is too low, within what the friction
-#: coefficient is known to.
+#: kept to 0.3 K with a third and three times the damping and to 0.5 K in steps of a tenth, beyond
+#: it to 16 K and 3.5 K (the study of large snaps). Lag: changes the friction force, and with it the
+#: heat, by as much. Penetration: a step with more is rejected where self-contact is on, so this
+#: speaks of runs without it. Layer: the share by which the rise of the surface temperature is too
+#: low, within what the friction coefficient is known to.
 LIMITS = (
     Limit(
         key="energy_error",

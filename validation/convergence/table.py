@@ -56,8 +56,8 @@ def onset_table(runs: list[SweptRun]) -> pd.DataFrame:
 
 
 def snaps_table(runs: list[SweptRun]) -> pd.DataFrame:
-    """What large snaps release and what comes of it, by the damping that carries them."""
-    varied = ("compound", "mean_pressure_N_per_mm2", "law", "mu", "damping")
+    """What large snaps release and what comes of it, by the damping that carries them and steps."""
+    varied = ("compound", "mean_pressure_N_per_mm2", "law", "mu", "damping", "steps_scale")
     return _table(runs, varied, onset=False)
 
 

@@ -231,21 +231,28 @@ def _verdict(found: pd.DataFrame) -> str:
 # -- large snaps -----------------------------------------------------------------------------------
 
 _SNAPPING = ["compound", "mean_pressure_N_per_mm2", "law", "mu"]
+_MANY_EQUILIBRIA = (
+    "The share itself changes: the folded edge has many equilibria, and damping, steps, or the "
+    "last\ndigit of another processor, choose. The summary warns of it."
+)
 
 
 def snaps_text(table: pd.DataFrame) -> str:
     """Table of what large snaps release and what comes of it, and from where on it matters."""
-    dampings = sorted(table["damping"].unique())
-    rows, ranges = [], []
+    columns = {
+        **{f"damping {_factor(d)}": (d, 1.0) for d in sorted(table["damping"].unique())},
+        **{f"steps {_factor(s)}": (1.0, s) for s in set(table["steps_scale"]) - {1.0}},
+    }
+    rows, moved = [], []
     for _, runs in table.groupby(_SNAPPING, sort=False, dropna=False):
-        own, case = runs.sort_values("damping"), runs.iloc[0]
+        case = runs.iloc[0]
         friction = case["law"] if np.isnan(case["mu"]) else f"{case['law']} {case['mu']:g}"
         name = f"{case['compound']}, {case['mean_pressure_N_per_mm2']:g} N/mm², {friction}"
-        rows.append([name, *(_outcome(run) for _, run in own.iterrows())])
-        ended = own[own["status"] == "ok"]
-        ranges.append((ended["snap_share"].max(), ended["T_max_C"].max() - ended["T_max_C"].min()))
-    heads = ["case", *(f"damping {_factor(damping)}: snaps, T_max, force" for damping in dampings)]
-    return f"{markdown_table(heads, rows)}\n\n{_where_snaps_matter(ranges)}"
+        by = runs.set_index(["damping", "steps_scale"])
+        rows.append([name, *(_outcome(by.loc[key]) for key in columns.values())])
+        moved.append(_moved(by))
+    heads = ["case", *(f"{column}: snaps, T_max, force" for column in columns)]
+    return f"{markdown_table(heads, rows)}\n\n{_where_snaps_matter(pd.DataFrame(moved))}"
 
 
 def _outcome(run: pd.Series) -> str:
@@ -257,19 +264,29 @@ def _outcome(run: pd.Series) -> str:
     )
 
 
-def _where_snaps_matter(ranges: list[tuple[float, float]]) -> str:
-    """What damping moves T_max by below and above the limit of the trust figure."""
+def _moved(runs: pd.DataFrame) -> dict[str, float]:
+    """Largest snap share of a case's runs in usual steps, and what moves its T_max by how much."""
+    T_max = runs["T_max_C"].where(runs["status"] == "ok")
+    usual = T_max[:, 1.0]
+    return {
+        "share": runs["snap_share"][:, 1.0].max(),
+        "damping": usual.max() - usual.min(),
+        "short steps": (T_max[1.0].drop(1.0) - T_max[1.0, 1.0]).abs().max(),
+    }
+
+
+def _where_snaps_matter(moved: pd.DataFrame) -> str:
+    """What damping and steps move T_max by below and above the limit of the trust figure."""
     (limit,) = (limit.largest for limit in LIMITS if limit.key == "snap_share")
-    small, large = ([T for share, T in ranges if (share > limit) == high] for high in (False, True))
-    words = f"Up to a snap share of {100 * limit:g} %"
-    if small:
-        words += f" damping moves T_max by at most {max(small):.1f} K;"
-    if large:
-        words += f" beyond it by up to {max(large):.1f} K,"
-    return (
-        f"{words}\nand the share itself changes: the folded edge has many equilibria, and damping, "
-        "or the last digit\nof another processor, chooses. The summary warns of it."
-    )
+    large = moved["share"] > limit
+    said = {f"Up to a snap share of {100 * limit:g} %": moved[~large], "Beyond it": moved[large]}
+    lines = [
+        f"{where} damping moves T_max by up to {cases['damping'].max():.1f} K, shorter steps by up "
+        f"to {cases['short steps'].max():.1f} K."
+        for where, cases in said.items()
+        if len(cases)
+    ]
+    return "\n".join([*lines, _MANY_EQUILIBRIA])
 
 
 # -- robustness ------------------------------------------------------------------------------------

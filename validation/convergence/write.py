@@ -49,7 +49,7 @@ def block() -> str:
         "damping itself takes there\n([validation/onset.csv](../validation/onset.csv)):\n\n"
         f"{onset_text(pd.read_csv(ONSET))}\n\n"
         "Large snaps, where friction and pressure are high, with a third of the damping, the "
-        "default, and\nthree times as much, after 40 mm of sliding\n"
+        "default, and\nthree times as much, and in steps of a tenth, after 40 mm of sliding\n"
         "([validation/snaps.csv](../validation/snaps.csv)):\n\n"
         f"{snaps_text(pd.read_csv(SNAPS))}\n\n"
         "The robustness study runs all rubbers of Table 1 with both friction laws and with "

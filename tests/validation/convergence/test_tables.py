@@ -162,16 +162,16 @@ def test_large_snaps_are_told_from_small_ones_at_the_limit_of_the_warning():
     first = table["compound"] == table["compound"].iloc[0]
     table["snap_share"], table["T_max_C"] = 0.01, 40.0
     high = first & (table["mu"] == 1.2) & (table["mean_pressure_N_per_mm2"] == 0.5)
-    table.loc[high, "snap_share"] = [0.05, 0.1, 0.15]
-    table.loc[high, "T_max_C"] = [38.0, 40.0, 45.0]
-    table.loc[first & (table["law"] == "huemer"), "T_max_C"] = [40.0, 40.3, 40.1]
+    table.loc[high, "snap_share"] = [0.05, 0.1, 0.15, 0.2]
+    table.loc[high, "T_max_C"] = [38.0, 40.0, 45.0, 39.0]
+    table.loc[first & (table["law"] == "huemer"), "T_max_C"] = [40.0, 40.3, 40.1, 41.0]
     table.loc[table.index[-1], ["T_max_C", "status"]] = [90.0, "not converged"]
     text = snaps_text(table)
     case = "yeoh-bars-series-1-load, 0.5 N/mm², coulomb 1.2"
     assert f"| {case} | 5.0 %, 38.0 °C, 0.33 N/mm | 10.0 %, 40.0 °C" in text
-    assert (
-        "snap share of 3 % damping moves T_max by at most 0.3 K; beyond it by up to 7.0 K" in text
-    )
+    assert "| 20.0 %, 39.0 °C, 0.33 N/mm |" in text
+    assert "of 3 % damping moves T_max by up to 0.3 K, shorter steps by up to 0.7 K.\n" in text
+    assert "Beyond it damping moves T_max by up to 7.0 K, shorter steps by up to 1.0 K.\n" in text
 
 
 def test_the_onset_of_the_introductory_example_is_that_of_its_limit():
