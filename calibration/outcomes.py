@@ -203,7 +203,7 @@ def calibrate_friction(
     if compare:
         found = compare_laws(data, **_without_fixed(options))
         files = {"laws.csv": found}
-        text = _compared("both laws", found.drop(columns="reason"))
+        text = _compared("the laws", found.drop(columns="reason"))
         text += "".join(f"\n{reason}" for reason in found["reason"] if reason)
     points = _points(result, columns)
     return _outcome(result, path, points, plot_friction(result, data), text, **files)
