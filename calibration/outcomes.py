@@ -122,7 +122,7 @@ def calibrate_hyperelastic(
         }
         text = _compared("all models", found.drop(columns=["n_data", "values"]))
     points = _points(result, columns, *_STRESSES)
-    return _outcome(result, path, points, plot_hyperelastic(result, data), text, **files)
+    return _outcome(result, path, points, plot_hyperelastic(result, data), text, files)
 
 
 def calibrate_viscoelastic(
@@ -147,7 +147,7 @@ def calibrate_viscoelastic(
         }
     )
     text = f"\n{_shown(tried)}"
-    return _outcome(result, path, points, picture, text, **{"branches.csv": tried})
+    return _outcome(result, path, points, picture, text, {"branches.csv": tried})
 
 
 def calibrate_mullins(
@@ -206,7 +206,7 @@ def calibrate_friction(
         text = _compared("the laws", found.drop(columns="reason"))
         text += "".join(f"\n{reason}" for reason in found["reason"] if reason)
     points = _points(result, columns)
-    return _outcome(result, path, points, plot_friction(result, data), text, **files)
+    return _outcome(result, path, points, plot_friction(result, data), text, files)
 
 
 def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None, **options: Any) -> Outcome:
@@ -231,7 +231,7 @@ def calibrate_wlf(path: str | Path, *, T_ref_C: float | None = None, **options: 
         "(wlf_T_ref_C); a case rebases them to T_ref_C, the temperature of its friction law"
     )
     points = _points(result, columns)
-    return _outcome(result, path, points, plot_wlf(result, data.T), text, **files)
+    return _outcome(result, path, points, plot_wlf(result, data.T), text, files)
 
 
 def calibrate_conductance(
@@ -289,7 +289,7 @@ def calibrate_partition(
     text = f"\nconstant kappa at each pressure and velocity:\n{_shown(found.discrete)}"
     text += f"\n{made} of the simulations had to be made"
     picture, points = plot_partition(result, found.discrete), _partition_points(found)
-    return _outcome(result, path, points, picture, text, **{"kappas.csv": found.discrete})
+    return _outcome(result, path, points, picture, text, {"kappas.csv": found.discrete})
 
 
 def _partition_points(found: PartitionFit) -> pd.DataFrame:
@@ -348,13 +348,14 @@ def _outcome(
     points: pd.DataFrame,
     picture: Figure,
     text: str = "",
-    **more: pd.DataFrame | Figure,
+    more: Mapping[str, pd.DataFrame | Figure] | None = None,
 ) -> Outcome:
     """What every calibration prints and writes, with a text and files (by name) of its own."""
     fit_progress.stage("tables and pictures")
+    shown_by_name = {"fit.csv": points, "fit.png": picture, **(more or {})}
     files = {
         name: png(shown) if isinstance(shown, Figure) else _csv(shown)
-        for name, shown in {"fit.csv": points, "fit.png": picture, **more}.items()
+        for name, shown in shown_by_name.items()
     }
     return Outcome(
         text=_heading(result, path) + text,

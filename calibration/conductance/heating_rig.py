@@ -19,7 +19,7 @@ References
    Numerical Analysis 14 (1977) 1006-1021.
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -115,8 +115,16 @@ class HeatingRig:
     cells_mm: float = 0.5
 
     def __post_init__(self) -> None:
-        positive = [one.name for one in fields(self) if one.name.endswith(("_mm", "_N_per_mm2"))]
-        for name in positive:
+        for name in (
+            "block_length_mm",
+            "block_height_mm",
+            "copper_height_mm",
+            "asphalt_length_mm",
+            "asphalt_height_mm",
+            "depth_mm",
+            "pressure_N_per_mm2",
+            "cells_mm",
+        ):
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0.0):
                 raise ValueError(f"rig: {name} = {value}, expected a number above 0")

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from calibration.fitting.minimum import column_sizes, least_squares_solution, thinned
+from calibration.fitting.minimum import least_squares_solution, thinned
 from calibration.fitting.problem import Problem
 from materials.arrays import BoolArray, FloatArray
 
@@ -58,7 +58,9 @@ def _variance(problem: Problem, residuals: FloatArray, fitted: int) -> float:
 
 def _inverse_normal_matrix(J: FloatArray) -> tuple[FloatArray, BoolArray]:
     """``(J^T J)^-1`` and which parameters take part in a singular direction."""
-    empty, scale = np.linalg.norm(J, axis=0) == 0.0, column_sizes(J)
+    sizes = np.linalg.norm(J, axis=0)
+    empty = sizes == 0.0
+    scale = np.where(empty, 1.0, sizes)
     reduced = np.linalg.qr(J / scale, mode="r")
     _, singular, directions = np.linalg.svd(reduced, full_matrices=False)
     good = singular > _SINGULAR * singular[0]

@@ -30,7 +30,7 @@ import pandas as pd
 
 from calibration.fitting import FitResult, Problem, fit
 from calibration.partition.data import Condition, PartitionData, ProfileUse, read_partition_data
-from calibration.partition.loading import refuse_event, refuse_key
+from calibration.partition.loading import refuse_event
 from calibration.partition.simulation_store import SimulationStore
 from calibration.partition.slides import (
     CONTACT_SHARE,
@@ -45,7 +45,7 @@ from calibration.partition.slides import (
     power,
 )
 from contact.partition import HeatPartition
-from fem.case import Case
+from fem.case import Case, CaseError
 from fem.files import program_version, version_of
 from materials.arrays import FloatArray
 
@@ -148,12 +148,14 @@ def _check_case(case: Case) -> None:
     refuse_event(case)
     if case.heat.partition.cap < SMALLEST:
         expected = f"at least {SMALLEST:g}, a share of the friction power to identify"
-        refuse_key(case, "heat.partition.cap", f"{case.heat.partition.cap:g}", expected)
+        found = f"{case.heat.partition.cap:g}"
+        raise CaseError(case.source, "heat.partition.cap", found, expected)
     if not isinstance(case.heat.partition.pressure, str):
         expected = '"mean" or "local": with one fixed pressure the law has no exponent to fit'
-        refuse_key(case, "heat.partition.pressure", f"{case.heat.partition.pressure:g}", expected)
+        found = f"{case.heat.partition.pressure:g}"
+        raise CaseError(case.source, "heat.partition.pressure", found, expected)
     if case.friction.law == "coulomb" and case.friction.constants.get("mu") == 0.0:
-        refuse_key(case, "friction.mu", "0", "friction, which makes heat")
+        raise CaseError(case.source, "friction.mu", "0", "friction, which makes heat")
 
 
 # -- discrete estimates ------------------------------------------------------------------------

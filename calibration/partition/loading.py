@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import copysign
-from typing import Any, NoReturn
+from typing import Any
 
 from fem.case import Case, CaseError, describe
 
@@ -20,16 +20,16 @@ def refuse_event(case: Case) -> None:
     for number, phase in enumerate(case.loading.phase):
         key = f"loading.phase.{number}"
         if phase.kind == "record":
-            refuse_key(
-                case, f"{key}.kind", '"record"', "press and slide, as the rig slid the block"
-            )
+            expected = "press and slide, as the rig slid the block"
+            raise CaseError(case.source, f"{key}.kind", '"record"', expected)
         name = {"press": "mean_pressure_N_per_mm2", "slide": "velocity_mm_per_s"}.get(phase.kind)
         value = abs(getattr(phase, name)) if name else 0.0
         if name is None or value == 0.0:
             continue
         if held.setdefault(name, value) != value:
             found = f"{describe(value)} after {describe(held[name])}"
-            refuse_key(case, f"{key}.{name}", found, "one pressure and one speed: those measured")
+            expected = "one pressure and one speed: those measured"
+            raise CaseError(case.source, f"{key}.{name}", found, expected)
 
 
 def loading_keys(case: Case, pressure: float, velocity: float) -> dict[str, Any]:
@@ -53,8 +53,3 @@ def loading_keys(case: Case, pressure: float, velocity: float) -> dict[str, Any]
         elif phase.get("velocity_mm_per_s"):
             phase["velocity_mm_per_s"] = copysign(velocity, phase["velocity_mm_per_s"])
     return {"loading.phase": phases, "loading.repeat": 1}
-
-
-def refuse_key(case: Case, key: str, found: str, expected: str) -> NoReturn:
-    """Refuse the value of a key of the case."""
-    raise CaseError(case.source, key, found, expected)

@@ -307,11 +307,10 @@ def _rounded(value: float) -> float:
 
 def partition_table(law: HeatPartition) -> dict[str, str | float]:
     """The law as the table `heat.partition` of a case."""
-    constants = {"prefactor": law.prefactor, "exponent": law.exponent}
-    if law.exponent == 0.0:
-        del constants["exponent"]
-    kind = "power" if law.exponent else "constant"
-    return {"law": kind, **constants, "cap": law.cap, "pressure": law.pressure}
+    table: dict[str, str | float] = {"law": "constant", "prefactor": law.prefactor}
+    if law.exponent != 0.0:
+        table |= {"law": "power", "exponent": law.exponent}
+    return table | {"cap": law.cap, "pressure": law.pressure}
 
 
 def _described(law: HeatPartition) -> str:

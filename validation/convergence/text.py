@@ -241,7 +241,7 @@ def snaps_text(table: pd.DataFrame) -> str:
     """Table of what large snaps release and what comes of it, and from where on it matters."""
     columns = {
         **{f"damping {_factor(d)}": (d, 1.0) for d in sorted(table["damping"].unique())},
-        **{f"steps {_factor(s)}": (1.0, s) for s in set(table["steps_scale"]) - {1.0}},
+        **{f"steps {_factor(s)}": (1.0, s) for s in sorted(set(table["steps_scale"]) - {1.0})},
     }
     rows, moved = [], []
     for _, runs in table.groupby(_SNAPPING, sort=False, dropna=False):
@@ -266,10 +266,11 @@ def _outcome(run: pd.Series) -> str:
 
 def _moved(runs: pd.DataFrame) -> dict[str, float]:
     """Largest snap share of a case's runs in usual steps, and what moves its T_max by how much."""
-    T_max = runs["T_max_C"].where(runs["status"] == "ok")
+    ended = runs[["snap_share", "T_max_C"]].where(runs["status"] == "ok")
+    share, T_max = ended["snap_share"], ended["T_max_C"]
     usual = T_max[:, 1.0]
     return {
-        "share": runs["snap_share"][:, 1.0].max(),
+        "share": share[:, 1.0].max(),
         "damping": usual.max() - usual.min(),
         "short steps": (T_max[1.0].drop(1.0) - T_max[1.0, 1.0]).abs().max(),
     }
